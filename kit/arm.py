@@ -10,7 +10,7 @@ from importlib.metadata import version
 from book._ext.policy import seal
 from kit.demos import ROOT
 from page.arm.controls import MUJOCO
-from page.arm.live import given
+from page.arm.live import page_constants
 from page.bundle import bundle
 
 SCRIPT = """/* The arm of `A book that sees and reaches`, and MuJoCo (Apache-2.0): see README.md. */
@@ -46,7 +46,7 @@ def build(folder):
     script = SCRIPT.format(
         mujoco=MUJOCO.read_text(encoding="utf-8"),
         modules=bundle(*(f"arm/{name}.js" for name in MODULES)),
-        constants=json.dumps(given(), allow_nan=False),
+        constants=json.dumps(page_constants(), allow_nan=False),
     )
     (folder / "arm.js").write_text(script, encoding="utf-8")
     example = (ROOT / "page/arm/example.html").read_text(encoding="utf-8")

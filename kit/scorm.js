@@ -4,10 +4,10 @@
 (() => {
   "use strict";
 
-  const above = (frame) => frame.API ?? (frame.parent === frame ? null : above(frame.parent));
+  const findApi = (frame) => frame.API ?? (frame.parent === frame ? null : findApi(frame.parent));
   let api;
   try {
-    api = above(self) ?? (self.opener && above(self.opener));
+    api = findApi(self) ?? (self.opener && findApi(self.opener));
   } catch {
     return; // a page of another host, which may not be looked into
   }
@@ -21,16 +21,16 @@
     api.LMSCommit("");
   };
   const question = document.querySelector(".vmc-predict"), score = api.LMSGetValue("cmi.core.score.raw");
-  let predicted = !question || +score >= 50, looked = false;
-  const predict = () => {
+  let predicted = !question || +score >= 50, moved = false;
+  const tellPredicted = () => {
     if (!predicted) tell("incomplete", 50);
     predicted = true;
   };
-  const look = () => {
-    if (predicted && !looked) tell("completed", 100);
-    looked = predicted;
+  const tellMoved = () => {
+    if (predicted && !moved) tell("completed", 100);
+    moved = predicted;
   };
   if (!score) tell("incomplete", 0);
-  addEventListener("input", ({ target }) => (question?.contains(target) ? predict() : look()));
-  addEventListener("click", ({ target }) => target.closest(".vmc-demo form button") && look());
+  addEventListener("input", ({ target }) => (question?.contains(target) ? tellPredicted() : tellMoved()));
+  addEventListener("click", ({ target }) => target.closest(".vmc-demo form button") && tellMoved());
 })();

@@ -15,12 +15,12 @@ const area = (content) => [...content.querySelectorAll(".vmc-picture > :is(svg, 
 const fit = (slide) => {
   const content = slide?.querySelector(":scope > .fit");
   if (!content) return;
-  const drawn = (where, least) => {
+  const fittedArea = (where, least) => {
     content.classList.toggle("beside", where === "beside");
     return fits(slide, content, least) ? area(content) : -1;
   };
-  const below = content.querySelector(".vmc-scene") ? -1 : drawn("below", 0.8);
-  if (drawn("beside", 0.4) <= below) drawn("below", 0.8);
+  const below = content.querySelector(".vmc-scene") ? -1 : fittedArea("below", 0.8);
+  if (fittedArea("beside", 0.4) <= below) fittedArea("below", 0.8);
 };
 
 const fitCurrent = () => fit(Reveal.getCurrentSlide());

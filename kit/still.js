@@ -7,7 +7,7 @@ async (root) => {
   /* The demo as it looks now: its pictures, and where its controls stand. */
   const look = async (demo) => {
     const scenes = [...demo.querySelectorAll(".vmc-scene")].map(vmc["demo/scene"].viewOf);
-    for (const scene of scenes) await scene.awake();
+    for (const scene of scenes) await scene.wake();
     for (const time of demo.querySelectorAll(".vmc-clock:not([hidden]) input")) {
       time.value = time.max; // where the movement leads
       time.dispatchEvent(new Event("input"));

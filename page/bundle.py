@@ -21,7 +21,7 @@ HEAD = "/* Made of the modules in the folder `page`, readable there. */\n"
 
 def bundle(*entries, folder=FOLDER):
     """The entries (paths from `folder`) and what they import: the text of a function of a table."""
-    modules = "".join(_wrapped(name, folder) for name in import_order(entries, folder))
+    modules = "".join(_wrap(name, folder) for name in import_order(entries, folder))
     return f'((vmc) => {{\n"use strict";\n{modules}return vmc;\n}})'
 
 
@@ -68,7 +68,7 @@ def _key(name):
     return f'["{name.removesuffix(".js")}"]'
 
 
-def _wrapped(name, folder):
+def _wrap(name, folder):
     """A module's text as a statement that puts its exports into the table."""
     text = (folder / name).read_text(encoding="utf-8")
     exports = [export for _, export in EXPORT.findall(text)]

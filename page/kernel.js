@@ -18,7 +18,7 @@ const run = (text) => {
 
 /* `ask(question, value)` promises the kernel's answer, or an { error }; so does every question that
    is open when the kernel goes, of which `onleave` hears. */
-const connect = (channel, vendored) => {
+const connect = (channel, scripts) => {
   const pending = new Map();
   const settle = (id, reply) => {
     pending.get(id)?.(reply);
@@ -44,7 +44,7 @@ const connect = (channel, vendored) => {
   };
   channel.on("msg:custom", ({ id, answer, error }) => settle(id, error === undefined ? answer : { error }), ask);
   channel.on("comm_live_update", ask.leave, ask);
-  ask.vendored = vendored;
+  ask.vendored = scripts; // that this kernel has
   lenders.add(ask);
   return ask;
 };

@@ -23,6 +23,15 @@ export const fetchVendored = (name) => {
 /* From now on `fetch(name)` promises it, from a live kernel. */
 export const lend = (fetch) => (lender = fetch);
 
+/* `load`, which promises something, as a function that loads it once; again only if that failed. */
+export const once = (load) => {
+  let loading;
+  return () => (loading ??= load().catch((error) => {
+    loading = null;
+    throw error;
+  }));
+};
+
 /* What base64 holds of something gzipped, as a response: its JSON, its bytes. */
 export const unzip = (base64) => {
   const text = atob(base64), bytes = new Uint8Array(text.length);

@@ -33,7 +33,7 @@ async function idleControls() {
   };
   const idle = [];
   for (const demo of demos()) {
-    for (const div of demo.querySelectorAll(".vmc-scene")) await vmc["demo/scene"].viewOf(div).awake();
+    for (const div of demo.querySelectorAll(".vmc-scene")) await vmc["demo/scene"].viewOf(div).wake();
     const all = controls(demo);
     for (const control of all) {
       const others = all.filter((other) => other !== control);

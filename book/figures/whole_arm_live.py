@@ -6,7 +6,7 @@ import numpy as np
 
 from book.figures.panels import panels
 from book.figures.whole_arm import BONES, VIEWS, arm_data, lines, view_from
-from page.arm.live import experience
+from page.arm.live import packed_templates
 from reproduce.whole_arm import bones, habits, plant
 from vmc_lib.show import COLOURS, props
 from vmc_lib.show.scene import Scene
@@ -37,7 +37,7 @@ def arm(past, rest):
         "held": plant.HOLD,
         "every": 1,
         "steps": plant.STEPS,
-        "templateSet": experience(past.points, past.excitations, plant.TICKS),
+        "templateSet": packed_templates(past.points, past.excitations, plant.TICKS),
         "muscles": _bellies(),
         "bones": surfaces,
         "still": still,

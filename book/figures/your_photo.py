@@ -112,7 +112,7 @@ def camera_guess():
 
 
 def _page(example, scene, plot):
-    given = live.given() | {
+    given = live.page_constants() | {
         "views": [[2, 0]],
         "sheet": sheet(),
         "placeAccuracy": place_accuracy(),

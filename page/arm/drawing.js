@@ -25,9 +25,9 @@ class Lens {
 
   show(marks, target) {
     const { at, times, measure, put } = this;
-    const enlarged = (point) => at.map((middle, axis) => middle + times * (point[axis] - target[axis]));
+    const enlarge = (point) => at.map((middle, axis) => middle + times * (point[axis] - target[axis]));
     const shapes = marks.filter(([kind]) => kind !== "words");
-    put.innerHTML = target ? draw(shapes, measure, enlarged) : "";
+    put.innerHTML = target ? draw(shapes, measure, enlarge) : "";
   }
 }
 

@@ -13,20 +13,20 @@ export class Experience extends Aimed {
     all.addEventListener("click", () => {
       this.forgetAdded();
       for (const one of this.boxes) one.checked = true;
-      this.again();
+      this.reachAgain();
     });
-    this.controls.addEventListener("click", (event) => this.mayGo(event));
+    this.controls.addEventListener("click", (event) => this.keepNeeded(event));
     const pictures = box.querySelector(".vmc-pictures");
     let down, up; // where a click truly was: a finger's is moved onto the handle beside it
     pictures.addEventListener("pointerdown", (event) => { // before the handle hears it
       down = up = event;
-      if (!onHandle(event) && this.dot(event)) event.stopPropagation();
+      if (!onHandle(event) && this.boxAt(event)) event.stopPropagation();
     }, true);
     pictures.addEventListener("pointerup", (event) => (up = event), true);
     pictures.addEventListener("click", (event) => {
       if (!down) return; // a screen reader's click, say, has no pointer
       const still = Math.hypot(up.clientX - down.clientX, up.clientY - down.clientY) < 4;
-      const dot = still && this.dot(down);
+      const dot = still && this.boxAt(down);
       if (!dot) return;
       event.stopPropagation();
       dot.click();
@@ -43,18 +43,18 @@ export class Experience extends Aimed {
   }
 
   /* The box of the template that the reader points at on the plot, or through the handle on it. */
-  dot(event) {
+  boxAt(event) {
     const { target, clientX, clientY, pointerType } = event, { svg, measure } = this.drawing.plots[0];
     if (target.closest("svg") !== svg && !onHandle(event)) return null;
     const { left, top, width, height } = svg.getBoundingClientRect();
-    const far = this.experience.points.map(measure.drawn).map(([right, down]) =>
+    const far = this.experience.points.map(measure.shareOf).map(([right, down]) =>
       Math.hypot(clientX - left - right * width, clientY - top - down * height));
     const least = Math.min(...far);
     return least < (pointerType === "touch" && !onHandle(event) ? FINGER : NEAR) ? this.boxes[far.indexOf(least)] : null;
   }
 
   /* A template without which there is no plan stays. */
-  mayGo(event) {
+  keepNeeded(event) {
     if (event.target.name !== "template" || event.target.checked || !this.plan) return;
     try {
       this.propose();
@@ -78,7 +78,7 @@ export class Experience extends Aimed {
     label.lastChild.textContent = ` ${place}`;
     this.boxes.at(-1).parentElement.after(label);
     this.boxes.at(-1).checked = true;
-    this.again();
+    this.reachAgain();
     this.kept = ` Kept: template ${this.boxes.length}, at ${place}.`; // said now, and after the reach
     this.say(this.kept.trim());
   }
@@ -95,7 +95,7 @@ export class Experience extends Aimed {
     super.aim(moved);
   }
 
-  again() {
+  reachAgain() {
     this.aim();
     this.begin();
   }

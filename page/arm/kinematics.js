@@ -13,7 +13,7 @@ const bearing = ([x, y]) => Math.atan2(x, -y);
 const placeText = (place) => place.map((x) => signed(x, 3)).join(", ");
 
 /* The posture with `measure(q)` as wanted: Newton's method from near a place `guess` of the plane. */
-const solve = (arm, measure, wanted, guess, target) => {
+const findPosture = (arm, measure, wanted, guess, target) => {
   const [low, high] = arm.bent[1], far = Math.hypot(...guess);
   const elbows = Array.from({ length: 100 }, (_, i) => high + (i / 99) * (low - high)); // ever straighter
   const reach = elbows.map((elbow) => Math.hypot(...hand(arm, [0, elbow]).slice(0, 2)));
@@ -35,7 +35,7 @@ const solve = (arm, measure, wanted, guess, target) => {
 };
 
 /* The posture that puts the wrist at a place (x, y) of the arm's plane; RangeError beyond its reach. */
-export const inverseKinematics = (arm, place) => solve(arm, (q) => hand(arm, q).slice(0, 2), place, place, place);
+export const inverseKinematics = (arm, place) => findPosture(arm, (q) => hand(arm, q).slice(0, 2), place, place, place);
 
 /* The trunk's `turn` (rad, positive to the left) that brings a target (3,) of the room into the arm's plane,
    and the `place` (x, y) where it then lies there; RangeError where no turn does. */
@@ -44,7 +44,7 @@ export const turnTowards = (arm, target) => {
   const aside = (q) => { const [u, , w] = hand(arm, q); return minus([u, w], axis); };
   const measure = (q) => [Math.hypot(...aside(q)), hand(arm, q)[1]];
   const ahead = Math.sqrt(Math.max(x * x + z * z - (0.06 - axis[1]) ** 2, 0)); // about
-  const q = solve(arm, measure, [Math.hypot(x, z), target[1]], [axis[0] + ahead, target[1]], target);
+  const q = findPosture(arm, measure, [Math.hypot(x, z), target[1]], [axis[0] + ahead, target[1]], target);
   const [u, w] = aside(q), turn = Math.atan2(w, u) - Math.atan2(z, x);
   if (turn < range[0] || turn > range[1])
     throw new RangeError(`${placeText(target)} m needs a turn of ${degrees(turn, 0)}; move the target`);

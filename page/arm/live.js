@@ -34,7 +34,7 @@ export class Live {
   }
 
   /* Whether the arm is there; it is loaded when it is first asked for. */
-  awake() {
+  wake() {
     return (this.loading ??= this.load());
   }
 
@@ -44,7 +44,7 @@ export class Live {
     await frame();
     try {
       const arm = await load(this.given);
-      await this.drawing.view.awake();
+      await this.drawing.view.wake();
       if (signal.aborted) {
         arm.free();
         return false;
@@ -63,7 +63,7 @@ export class Live {
   }
 
   async begin() {
-    if (await this.awake()) await this.main();
+    if (await this.wake()) await this.main();
   }
 
   /* The page has done with it: what runs, ends. */

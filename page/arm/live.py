@@ -73,14 +73,14 @@ def live_arm(mode, target=PHOTO_1, law=""):
     if mode not in MODES:
         raise ValueError(f"mode {mode!r} is unknown: choose one of {[*MODES]}")
     name = next(names)
-    data = given()
+    data = page_constants()
     if mode == "bench":
         draw, controls = _bench_view, bench_form(name)
     else:
         target = np.asarray(target, float)
         movement = execute(plan(target, templates.load()))  # raises when none surround it
         draw, controls = partial(_reach_view, movement), reach_form(name, target, mode)
-        data |= {"first": first(movement), "lens": LENS}
+        data |= {"first": first_reach(movement), "lens": LENS}
     show(name, mode, draw, controls, data, MODES[mode], law)
 
 
@@ -107,7 +107,7 @@ def show(name, mode, draw, controls, data, alt, law=""):
         display(still(alt, drawn, name), widget, HTML(style))
 
 
-def given():
+def page_constants():
     """What the page has from Python, as JSON takes it: the model, constants, past experience."""
     template_set = templates.load()
     knots = np.linalg.pinv(spline()) @ template_set.excitations
@@ -135,12 +135,12 @@ def given():
         },
         "start": templates.START.tolist(),
         "rest": static_activation(templates.START).tolist(),
-        "templateSet": experience(template_set.points, knots, SAMPLES),
+        "templateSet": packed_templates(template_set.points, knots, SAMPLES),
         "calibration": CALIBRATION,
     }
 
 
-def first(movement):
+def first_reach(movement):
     """A reach as the page would have made it: what it shows before the physics is there."""
     motion, ten = movement.motion, slice(None, None, 10)  # of its moments the path has one
     return {
@@ -157,7 +157,7 @@ def first(movement):
     }
 
 
-def experience(points, knots, steps):
+def packed_templates(points, knots, steps):
     """Templates as the page takes them: where they end, and the knots (N, …) of their commands."""
     return {
         "points": points.tolist(),

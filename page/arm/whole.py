@@ -20,10 +20,10 @@ def live_whole_arm(arm, draw, zone, target, alt):
     `arm` is what the page has of it, as JSON takes it: the model's `xml`, its `start` and the
     activations of `rest`, the seconds of a `step` and how often physics is stepped in it (`steps`),
     how many of these the hold lasts (`held`) and how many lie between two looks at it (`every`),
-    the bodies at its `joints` and the site of its `tip`; the `templateSet` (see `experience`);
-    `muscles`, `bones` and how all lies at first, `still`. `draw()` returns its scene and plots,
-    each of which shows two of three axes (`views`). The reader sets a target within `zone` (2, 3),
-    in m; it first stands at `target` (3,). `alt` describes it all in words.
+    the bodies at its `joints` and the site of its `tip`; the `templateSet` (see
+    `packed_templates`); `muscles`, `bones` and how all lies at first, `still`. `draw()` returns its
+    scene and plots, each of which shows two of three axes (`views`). The reader sets a target
+    within `zone` (2, 3), in m; it first stands at `target` (3,). `alt` describes it all in words.
     """
     name = next(names)
     rule = '<input type="hidden" name="rule" value="broydenCalibration">'

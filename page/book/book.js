@@ -5,14 +5,14 @@ import { setEquations } from "./equations.js";
 
 /* An equation or code wider than the page scrolls; then the keyboard must be able to reach it. The theme sees to
    code when a page opens, but not to that of a fold, which has no width until it is open. */
-const reach = (part) =>
+const makeReachable = (part) =>
   part.querySelectorAll("div.math, details[open] pre").forEach((wide) =>
     wide.scrollWidth > wide.clientWidth
       ? wide.setAttribute("tabindex", "0")
       : wide.removeAttribute("tabindex"));
 addEventListener("DOMContentLoaded", () => setEquations(document.body));
-for (const event of ["load", "resize"]) addEventListener(event, () => reach(document));
-document.addEventListener("toggle", ({ target }) => reach(target), true);
+for (const event of ["load", "resize"]) addEventListener(event, () => makeReachable(document));
+document.addEventListener("toggle", ({ target }) => makeReachable(target), true);
 
 /* A page shows the model's own code; what imports, draws and tabulates is folded. A box in the header
    shows it all, and is remembered where the browser remembers. */
@@ -59,14 +59,14 @@ addEventListener("DOMContentLoaded", () =>
     heading.after(inside);
     button.addEventListener("click", () => open(inside.hasAttribute("hidden")));
     inside.addEventListener("beforematch", () => open(true));
-    const come = () => {
+    const openWhereLinked = () => {
       const place = document.getElementById(address()[0]);
       if (place && section.contains(place)) { open(true); place.scrollIntoView(); }
     };
-    addEventListener("hashchange", come);
+    addEventListener("hashchange", openWhereLinked);
     addEventListener("load", () => inside.querySelector("span.highlighted") && open(true)); // by the book's search
     open(false);
-    come();
+    openWhereLinked();
   }));
 
 /* What a link leads to is unfolded. */

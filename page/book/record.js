@@ -9,8 +9,8 @@ const page = location.pathname.split("/").pop().replace(/\.html$/, "");
 const TEXTS = ["page", "kind", "id", "question", "answer", "feedback"];
 const isAnswer = (one) => TEXTS.every((name) => typeof one?.[name] === "string"); // others may write there
 const unkept = []; // answers for which the browser had no room
-const stored = () => [memory.parsed(KEY) ?? []].flat().filter(isAnswer);
-const all = () => [...stored(), ...unkept].slice(-MOST);
+const storedAnswers = () => [memory.getParsed(KEY) ?? []].flat().filter(isAnswer);
+const allAnswers = () => [...storedAnswers(), ...unkept].slice(-MOST);
 
 /* The words of an element, its formulas as they were written. */
 const words = (node) => {
@@ -20,10 +20,10 @@ const words = (node) => {
   return copy.textContent.replace(/\s+/g, " ").trim();
 };
 
-const shortened = (text) => (text.length > ASKED ? `${text.slice(0, ASKED - 1).trimEnd()}…` : text);
+const shorten = (text) => (text.length > ASKED ? `${text.slice(0, ASKED - 1).trimEnd()}…` : text);
 const add = (kind, id, question, answer, right, feedback = "") => {
-  const entry = { page, kind, id, question: shortened(question), answer: answer.slice(0, LONGEST), right, feedback };
-  const entries = [...all(), entry].slice(-MOST);
+  const entry = { page, kind, id, question: shorten(question), answer: answer.slice(0, LONGEST), right, feedback };
+  const entries = [...allAnswers(), entry].slice(-MOST);
   while (JSON.stringify(entries).length > LARGEST) entries.splice(0, Math.ceil(entries.length / 10));
   if (memory.set(KEY, JSON.stringify(entries))) unkept.length = 0;
   else unkept.push(entry);
@@ -69,20 +69,20 @@ const [save, forget] = place.querySelectorAll("button");
 const STAYS = "It stays in this browser.", GOES = "This browser keeps no more: save your answers as a file before you close the page.";
 
 const show = () => {
-  const { length } = stored();
+  const { length } = storedAnswers();
   place.hidden = !length && !unkept.length;
   place.querySelector("summary").textContent = `What this browser has kept of your answers: ${length}`;
   const goes = unkept.length > 0 || document.documentElement.dataset.storage === "page";
   if (goes) place.open = true;
   place.querySelector("[role=status]").textContent = goes ? GOES : STAYS;
-  list();
+  drawList();
 };
 
 /* Many answers, with their formulas, take seconds to draw: who looks at them waits. */
-const list = () => {
+const drawList = () => {
   if (!place.open) return;
   const items = place.querySelector("ol");
-  items.replaceChildren(...all().map(({ page, kind, question, answer, right, feedback }) => {
+  items.replaceChildren(...allAnswers().map(({ page, kind, question, answer, right, feedback }) => {
     const code = /\n|^\s/.test(answer), item = document.createElement("li"); // whatever else is typed was trimmed
     const make = (tag, textContent) => Object.assign(document.createElement(tag), { textContent });
     const text = (words) => words.replace(/\$([^$]+)\$/g, "\\($1\\)"), ends = text(` ${right ? "✓" : "✗"} ${feedback}`);
@@ -91,10 +91,10 @@ const list = () => {
   }));
   setEquations(items);
 };
-place.addEventListener("toggle", list);
+place.addEventListener("toggle", drawList);
 save.addEventListener("click", () => {
   const who = place.querySelector("input").value.trim();
-  const url = URL.createObjectURL(new Blob([JSON.stringify({ format: "answers 1", who, answers: all() }, null, 1)], { type: "application/json" }));
+  const url = URL.createObjectURL(new Blob([JSON.stringify({ format: "answers 1", who, answers: allAnswers() }, null, 1)], { type: "application/json" }));
   Object.assign(document.createElement("a"), { href: url, download: `answers-${who.replace(/[^\w-]+/g, "_") || "mine"}.json` }).click();
   setTimeout(() => URL.revokeObjectURL(url), 1000);
 });

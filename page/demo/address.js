@@ -52,7 +52,7 @@ export const addAddress = (demo) => {
   };
 
   /* What the address says of this demo. */
-  const said = () => {
+  const ownQuery = () => {
     const [id, places] = address();
     return id === demo.id ? places : undefined;
   };
@@ -61,7 +61,7 @@ export const addAddress = (demo) => {
      came along, as a sentence's end does; what is none, as in a link that was cut, moves nothing. */
   let between = false;
   const read = () => {
-    for (const [key, text] of new URLSearchParams(said())) {
+    for (const [key, text] of new URLSearchParams(ownQuery())) {
       const place = parseFloat(text);
       if (!Number.isFinite(place)) continue;
       for (const input of inputs.filter((input) => name(input) === key)) {
@@ -72,16 +72,16 @@ export const addAddress = (demo) => {
   };
 
   /* Bring it into sight, out of whatever it is folded in. */
-  const come = () => {
+  const bringIntoSight = () => {
     for (let fold = demo; (fold = fold.parentElement.closest("details")); ) fold.open = true;
     demo.scrollIntoView({ block: "center" });
   };
 
   addEventListener("hashchange", () => {
-    if (said() === undefined) return;
+    if (ownQuery() === undefined) return;
     read();
     demo.dispatchEvent(new Event("input", { bubbles: true }));
-    come();
+    bringIntoSight();
   });
   let waiting; // until the hand rests: browsers bear only so many new addresses a second
   demo.addEventListener("input", () => {
@@ -90,7 +90,7 @@ export const addAddress = (demo) => {
     waiting = setTimeout(() => history.replaceState(history.state, "", moved), 200);
   });
   demo.addEventListener("vmc-shown", () => (link.href = state()));
-  if (said() !== undefined) addEventListener("load", come); // pictures take their room
+  if (ownQuery() !== undefined) addEventListener("load", bringIntoSight); // pictures take their room
   return (free) => {
     between = free;
     read();

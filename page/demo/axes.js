@@ -8,10 +8,10 @@ export const axesOf = (svg) => {
   const { width, height } = svg.viewBox.baseVal;
 
   /* Where in the picture the place (x, y) is drawn, as shares of its width and height. */
-  const drawn = ([x, y]) => [left + wide * (x - x0), bottom + high * (y - y0)];
+  const shareOf = ([x, y]) => [left + wide * (x - x0), bottom + high * (y - y0)];
 
   const put = (point) => {
-    const [right, down] = drawn(point);
+    const [right, down] = shareOf(point);
     return [(width * right).toFixed(1), (height * down).toFixed(1)];
   };
 
@@ -26,7 +26,7 @@ export const axesOf = (svg) => {
   };
 
   return {
-    left, right, bottom, top, drawn, place: (point) => put(point).map(Number),
+    left, right, bottom, top, shareOf, place: (point) => put(point).map(Number),
     head: [(x0 + x1) / 2, y1], // where a title stands
 
     /* How far along axis 0 or 1 a value lies, 0 to 1. */
@@ -55,7 +55,7 @@ export const axesOf = (svg) => {
     },
 
     /* The place (x, y) that the reader points at. */
-    pointed: ({ clientX, clientY }) => {
+    placeAt: ({ clientX, clientY }) => {
       const box = svg.getBoundingClientRect();
       return [
         x0 + ((clientX - box.left) / box.width - left) / wide,

@@ -138,12 +138,11 @@ export class Body {
     this.hand.quaternion.copy(forearm.invert()).multiply(turned);
     for (const { group, axis } of this.fingers)
       group.quaternion.setFromAxisAngle(axis, OPEN + (CLOSED - OPEN) * grasp);
-    const wrist = anatomy.placed(frames[2], anatomy.hand);
+    const wrist = anatomy.place(frames[2], anatomy.hand);
     this.mark.position.set(...wrist.map((c, i) => c + anatomy.beyond[i]));
     this.mark.visible = this.hasGoal; // what is to meet it: the hand's own place depends on how far the wrist bends
     const paths = anatomy.paths(q, frames);
     this.muscles.pose(paths.map((path, k) => anatomy.belly(path, anatomy.muscles[k])), activation);
     this.viewer.set_dirty();
   }
-
 }

@@ -58,17 +58,17 @@ const textAt = (texts, place) => {
 const MOVES = /^motion\|\{"q":\[\[[^\]]*\],/; // of a scene's messages, a movement's: of more postures than one
 
 /* The states that are stored in the page, as a function that gives one to `draw`. */
-const stored = async (demo) => {
+const askStored = async (demo) => {
   const kept = await unzip(demo.querySelector("script").textContent).json(), { lines, states, data } = kept;
   const ask = kept.work
-    ? computed(kept)
+    ? askComputed(kept)
     : (place, draw) => draw(states[place].map((places) => places.map((line) => lines[line])));
   return Object.assign(ask, { data, moves: lines?.some((line) => MOVES.test(line)) ?? true });
 };
 
 /* The same for states that the page computes: a function of the book, given the values that a place
    stands for, describes it in words and draws it on the pictures that came along. */
-const computed = ({ work, grounds, given, grid }) => {
+const askComputed = ({ work, grounds, given, grid }) => {
   const axes = grounds.map((lines) => axesOf(contentOf(lines).firstElementChild));
   const ask = (place, draw, at = {}) => {
     const values = grid.map((along, i) => {
@@ -88,8 +88,8 @@ const addHandles = (demo, sliders, given) => {
   const pads = [...demo.querySelectorAll(".vmc-pad")].map((pad) =>
     ({ grid: JSON.parse(pad.dataset.grid), twins: [...pad.querySelectorAll("input")] }));
   const stand = () => pads.map(({ grid, twins }) => twins.map((twin, i) => valueAt(grid[i], +twin.value)));
-  const same = (place) => place;
-  const views = given ?? pads.slice(0, 1).map(() => ({ toView: same, fromView: same }));
+  const identity = (place) => place;
+  const views = given ?? pads.slice(0, 1).map(() => ({ toView: identity, fromView: identity }));
   const puts = views.map(({ pad = 0, picture = 0, toView, fromView }) => {
     const { grid, twins } = pads[pad];
     const put = addHandle(demo.querySelector(".vmc-pictures"), (seen) => {
@@ -115,8 +115,9 @@ const tell = (demo) => {
   }
 };
 
+const all = { clean: (part) => part, cleanMessages: (messages) => messages }; // what the book drew needs no cut
+
 /* A function that draws a state (its words and pictures, each a list of lines, cut to what is `allowed`), then calls `follow`. */
-const all = { clean: (part) => part, settle: (messages) => messages };
 const drawer = (demo, follow) => {
   const [pictures, spoken] = [".vmc-pictures", ".vmc-spoken"].map((name) => demo.querySelector(name));
   const places = [".vmc-picture", ".vmc-data"].flatMap((name) => [...demo.querySelectorAll(name)]);
@@ -127,7 +128,7 @@ const drawer = (demo, follow) => {
     parts.forEach((lines, i) => {
       if (!lines) return; // it stands there already
       const picture = places[i], scene = picture.querySelector(".vmc-scene");
-      if (scene) return viewOf(scene).show(allowed.settle(lines));
+      if (scene) return viewOf(scene).show(allowed.cleanMessages(lines));
       const next = picture.cloneNode(false);
       next.append(allowed.clean(contentOf(lines)));
       morph(picture, next);
@@ -197,7 +198,7 @@ addEventListener("afterprint", () => (theme === undefined ? delete dataset.theme
 export const startAll = () =>
   document.querySelectorAll(".vmc-demo").forEach(async (demo) => {
     if (!demo.matches(":has(> script)")) return addSound(demo);
-    const read = addAddress(demo), ask = await stored(demo);
+    const read = addAddress(demo), ask = await askStored(demo);
     read(ask.between);
     start(demo, ask);
   });

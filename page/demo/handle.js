@@ -11,20 +11,20 @@ export const addHandle = (pictures, moved, number, dropped) => {
   handle.dataset.picture = number ?? 0;
   pictures.append(handle);
   const plot = () => pictures.querySelectorAll("svg[data-axes]")[number ?? 0];
-  const far = (other, { clientX, clientY }) => {
+  const distanceTo = (other, { clientX, clientY }) => {
     const { left, top, width, height } = other.getBoundingClientRect();
     return Math.hypot(clientX - left - width / 2, clientY - top - height / 2);
   };
-  const on = (event) =>
+  const isNearest = (event) =>
     event.target.closest("svg[data-axes]") === plot() &&
     [...pictures.querySelectorAll(`.vmc-handle[data-picture="${number ?? 0}"]`)].every((other) =>
-      far(handle, event) <= far(other, event));
+      distanceTo(handle, event) <= distanceTo(other, event));
   let place, held = null; // by which pointer, and how far beside the handle's middle it was taken
   const holds = ({ pointerId }) => held?.pointer === pointerId;
 
   const put = () => {
     const [box, frame] = [plot(), pictures].map((element) => element.getBoundingClientRect());
-    const [right, down] = axesOf(plot()).drawn(place);
+    const [right, down] = axesOf(plot()).shareOf(place);
     const [x, y] = [box.left - frame.left + right * box.width, box.top - frame.top + down * box.height];
     handle.hidden = x < 0 || x > frame.width; // where a phone has scrolled it out of sight
     const zoom = frame.width / pictures.offsetWidth || 1; // a slide is drawn smaller until it fits
@@ -32,12 +32,12 @@ export const addHandle = (pictures, moved, number, dropped) => {
   };
 
   const go = ({ clientX, clientY }, [x, y] = [0, 0]) =>
-    moved(axesOf(plot()).pointed({ clientX: clientX - x, clientY: clientY - y }));
+    moved(axesOf(plot()).placeAt({ clientX: clientX - x, clientY: clientY - y }));
 
   pictures.addEventListener("pointerdown", (event) => {
     if (event.button || (held && !holds(event))) return; // the others are the browser's; a second finger drags nothing
     const own = event.target === handle;
-    if (!own && (event.pointerType === "touch" || !on(event))) return;
+    if (!own && (event.pointerType === "touch" || !isNearest(event))) return;
     event.preventDefault(); // no text is selected on the way
     const { left, top, width, height } = handle.getBoundingClientRect();
     const beside = own ? [event.clientX - left - width / 2, event.clientY - top - height / 2] : [0, 0];
@@ -53,7 +53,7 @@ export const addHandle = (pictures, moved, number, dropped) => {
       dropped?.();
     });
   pictures.addEventListener("click", (event) => {
-    if (event.pointerType === "touch" && on(event)) (go(event), dropped?.());
+    if (event.pointerType === "touch" && isNearest(event)) (go(event), dropped?.());
   });
   pictures.addEventListener("scroll", () => put(), true); // a wide plot scrolls on a phone
   new ResizeObserver(() => place && put()).observe(pictures);

@@ -21,7 +21,7 @@ export class Muscles {
   }
 
   /* Which muscle is seen at a place of the picture, (-1, -1) to (1, 1) from lower left; or null. */
-  found([x, y]) {
+  muscleAt([x, y]) {
     const ray = new self.MeshCat.THREE.Raycaster();
     ray.setFromCamera({ x, y }, this.viewer.camera);
     const [hit] = ray.intersectObjects(this.meshes);

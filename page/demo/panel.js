@@ -132,13 +132,13 @@ const muscles = (view) => {
       <svg viewBox="0 0 50 16" preserveAspectRatio="none" aria-hidden="true"><polyline/><line y2="16"/></svg>
       <b></b></label>`);
     for (const [type, shown] of [["pointerenter", k], ["pointerleave", null]])
-      chip.addEventListener(type, () => view.body?.muscles.point(shown ?? chosen()));
+      chip.addEventListener(type, () => view.body?.muscles.point(shown ?? chosenMuscle()));
     box.append(chip);
   });
   box.querySelector("i").style.background = `linear-gradient(90deg, ${
     [0, 0.04, 0.16, 0.36, 0.64, 1].map((a) => `${colour(a)} ${100 * a}%`)})`;
-  const chosen = (view.chosen = () => box.querySelector(":checked")?.value ?? null);
-  box.addEventListener("input", (event) => (event.stopPropagation(), view.body?.muscles.point(chosen())));
+  const chosenMuscle = (view.chosen = () => box.querySelector(":checked")?.value ?? null);
+  box.addEventListener("input", (event) => (event.stopPropagation(), view.body?.muscles.point(chosenMuscle())));
   view.onmuscle = (k) => (box.querySelectorAll("input")[k].checked = true);
   let drawn;
   view.listeners.push((pose) => {

@@ -3,7 +3,7 @@ import { setEquations } from "../book/equations.js";
 /* What a reader chose is remembered where the browser remembers: it may be told not to. `set` is false where it is full. */
 export const memory = {
   get: (key) => { try { return localStorage.getItem(key); } catch { return null; } },
-  parsed: (key) => { try { return JSON.parse(localStorage.getItem(key)); } catch { return null; } }, // it may be cut
+  getParsed: (key) => { try { return JSON.parse(localStorage.getItem(key)); } catch { return null; } }, // it may be cut
   set: (key, text) => { try { localStorage.setItem(key, text); } catch ({ name }) { return !/quota/i.test(name); } return true; },
   remove: (key) => { try { localStorage.removeItem(key); } catch {} },
   get keys() { try { return Object.keys(localStorage); } catch { return []; } },

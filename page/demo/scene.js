@@ -3,7 +3,7 @@
    scene, a view sends its viewer only what differs. The viewer is fetched (page/vendored.js) when the page
    is idle, or a scene comes into sight. */
 import { clip, minus } from "../vectors.js";
-import { fetchVendored } from "../vendored.js";
+import { fetchVendored, once } from "../vendored.js";
 import { Anatomy, moment } from "./anatomy.js";
 import { Body, bones as unpackBones } from "./body.js";
 import { CloseUp } from "./close_up.js";
@@ -26,16 +26,16 @@ const askNoHost = ({ ImageLoader: { prototype } }) => {
   };
 };
 
-let loading, bones;
-const fetchAll = async () => {
+let bones;
+const fetchAll = once(async () => {
   if (!self.MeshCat) {
     await fetchVendored("meshcat.js");
     askNoHost(self.MeshCat.THREE);
   }
   if (!self.vmcBones) await fetchVendored("bones.js");
   bones = await unpackBones();
-};
-const load = () => (loading ??= fetchAll().catch(() => (loading = null))); // who needs it next, tries again
+});
+const load = () => fetchAll().catch(() => {}); // who needs it next, tries again
 
 const hasWebGL = () => {
   const context = document.createElement("canvas").getContext("webgl");
@@ -53,7 +53,7 @@ class View {
     this.wanted = Infinity; // s: a movement is first shown at its end
     this.listeners = [];
     views.set(div, this);
-    new IntersectionObserver((entries) => entries.at(-1).isIntersecting && this.awake(), {
+    new IntersectionObserver((entries) => entries.at(-1).isIntersecting && this.wake(), {
       rootMargin: "200px",
     }).observe(div);
     (self.requestIdleCallback ?? setTimeout)(load); // paper shows what was never in sight
@@ -61,23 +61,23 @@ class View {
   }
 
   /* Come to life, unless the browser cannot: then the words in the div stay, and say why. */
-  async awake() {
+  async wake() {
     await load();
     if (views.get(this.div) !== this) return; // the page has done with it
     live.delete(this);
-    if (!bones) return this.flat("The files of the 3-D picture did not come: load the page again.");
-    if (!this.viewer && !hasWebGL()) return this.flat(NO_WEBGL);
+    if (!bones) return this.showWords("The files of the 3-D picture did not come: load the page again.");
+    if (!this.viewer && !hasWebGL()) return this.showWords(NO_WEBGL);
     try {
       if (!this.viewer) this.start();
     } catch (error) {
       console.error(error); // it may also be a fault of ours
-      return this.flat(NO_WEBGL);
+      return this.showWords(NO_WEBGL);
     }
     live.add(this);
     if (live.size > MOST_LIVE) [...live][0].stop();
   }
 
-  flat(why) {
+  showWords(why) {
     const note = Object.assign(document.createElement("p"), { className: "vmc-note", textContent: why });
     this.viewer = this.body = null;
     live.delete(this);
@@ -119,8 +119,8 @@ class View {
     addPointer(this, canvas);
     const { domElement } = viewer.renderer;
     domElement.addEventListener("webglcontextlost", () => this.viewer === viewer
-      && this.flat("The browser has taken the 3-D picture away: scroll on and back, or load the page again."));
-    domElement.addEventListener("webglcontextrestored", () => this.viewer ?? this.awake());
+      && this.showWords("The browser has taken the 3-D picture away: scroll on and back, or load the page again."));
+    domElement.addEventListener("webglcontextrestored", () => this.viewer ?? this.wake());
     const draw = () => {
       if (this.viewer !== viewer) return;
       if (viewer.needs_render) viewer.render();
@@ -246,5 +246,5 @@ addEventListener("beforeprint", () => {
     view.stop();
   }
 });
-addEventListener("afterprint", () => lived.forEach((view) => view.awake()));
+addEventListener("afterprint", () => lived.forEach((view) => view.wake()));
 export const viewOf = (div) => views.get(div) ?? new View(div);

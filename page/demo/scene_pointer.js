@@ -13,7 +13,7 @@ export const addPointer = (view, canvas) => {
   const under = ({ clientX, clientY }) => {
     const { left, top, width, height } = canvas.getBoundingClientRect();
     const place = [(2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height];
-    const k = view.body?.muscles.found(place) ?? null;
+    const k = view.body?.muscles.muscleAt(place) ?? null;
     tip.textContent = k === null ? "" : view.anatomy.muscles[k].name;
     tip.style.transform = `translate(${clientX - left + 12}px, ${clientY - top - 24}px)`;
     return k;

@@ -13,8 +13,8 @@ let stop = () => {}; // what sounds now, of whichever demo
 /* Where in its picture the plot of a line lies: left, right, bottom, top. */
 const frame = (line) => {
   const svg = line.ownerSVGElement, { width, height } = svg.viewBox.baseVal;
-  const clip = /#([^)"]*)/.exec(line.getAttribute("clip-path"))?.[1];
-  const box = clip && svg.querySelector(`[id="${clip}"] rect`)?.getBBox();
+  const clipId = /#([^)"]*)/.exec(line.getAttribute("clip-path"))?.[1];
+  const box = clipId && svg.querySelector(`[id="${clipId}"] rect`)?.getBBox();
   if (box) return [box.x, box.x + box.width, box.y + box.height, box.y];
   const { left, right, bottom, top } = axesOf(svg);
   return [width * left, width * right, height * bottom, height * top];

@@ -14,7 +14,7 @@ export const bells = ({ lessons, uniform, ridge, line: [x, needed], edges, shown
   const purkinje = active.map((row, k) => times(shares[k], row)).reduce(plus);
   const said = x.map((at) => dot(excite(at), purkinje));
   const off = minus(said, needed).map(Math.abs), now = x.indexOf(place);
-  const inside = (y) => clip(y, ...edges);
+  const clipToPlot = (y) => clip(y, ...edges);
   const curve = (colour, ys, size, name) => plot.mark("line", colour, x.map((at, i) => [at, ys[i]]), size, 0, name);
   const words = `off by ${(sum(off) / x.length).toFixed(2)} mm on average, here by ${off[now].toFixed(2)}`;
   const [floor] = edges;
@@ -23,9 +23,9 @@ export const bells = ({ lessons, uniform, ridge, line: [x, needed], edges, shown
     centres.filter((_, j) => j % shown === 0)
       .map((centre) => curve("line", x.map((at) => floor - floor * bell(at, centre)), 1)).join("") +
       centres.map((at) => plot.mark("dot", "orange", [at, floor / 2], (3 * bell(place, at)).toFixed(2))).join("") +
-      curve("grey", needed, 1.8, "what is needed") + curve("red", said.map(inside), 1.8, "the cells' sum") +
+      curve("grey", needed, 1.8, "what is needed") + curve("red", said.map(clipToPlot), 1.8, "the cells' sum") +
       some.map((lesson) => plot.mark("dot", "blue", lesson, 3)).join("") +
-      plot.mark("line", "purple", [[place, inside(said[now])], [place, needed[now]]], 3) +
+      plot.mark("line", "purple", [[place, clipToPlot(said[now])], [place, needed[now]]], 3) +
       plot.mark("words", "ink", plot.head, words, 6),
   ];
 };

@@ -15,7 +15,7 @@ const kernelOf = (name, points) => {
 
 /* Sequential minimal optimisation: α of each point and the offset b. The pair that is farthest from
    the optimum moves, until none is far. */
-const solve = (points, labels, cost, kernel) => {
+const optimise = (points, labels, cost, kernel) => {
   const K = points.map((a) => points.map((b) => kernel(a, b)));
   const alpha = labels.map(() => 0), error = labels.map((y) => -y); // of f without b
   const [low, high] = [1e-12, 1 - 1e-12].map((share) => share * cost); // at its end, but for rounding
@@ -58,7 +58,7 @@ const contour = (f, line, value, put) => {
 };
 
 const fit = (points, labels, cost, name) => {
-  const kernel = kernelOf(name, points), { alpha, bias } = solve(points, labels, cost, kernel);
+  const kernel = kernelOf(name, points), { alpha, bias } = optimise(points, labels, cost, kernel);
   const held = points.flatMap((point, k) => (alpha[k] ? [[point, labels[k] * alpha[k]]] : []));
   const score = (x) => {
     let total = bias;

@@ -1,8 +1,9 @@
 /* The reader's own photo, made small before it travels: the channel to a kernel carries a few MB. */
 import { drawScaled, PIXELS_HIDDEN, takePictures } from "../canvas.js";
 
+const LARGEST = 1200; // pixels, of the longer side: the eye keeps half of them
+
 export const start = (box, ask) => {
-  const LARGEST = 1200; // pixels, of the longer side: the eye keeps half of them
   const [say, view, input] = ["[role=status]", ".vmc-picture", "input"].map((name) => box.querySelector(name));
   const tell = (words) => ([say.textContent, view.innerHTML] = [words, ""]);
 

@@ -88,9 +88,6 @@ def lab_grid():
     return np.diff(whole, axis=2, prepend=np.int16(0))
 
 
-# ---------------------------------------------------------------- packed
-
-
 @cache
 def script():
     """The script's text: it defines `self.vmcBrain`, arrays one behind another, gzip in base64."""

@@ -11,8 +11,8 @@ export const refineCorner = (levels, width, height, start, reach) => {
   const at = (x, y) => { // between pixels, a mixture
     const [cx, cy] = [clip(x, 0, width - 1), clip(y, 0, height - 1)];
     const i = Math.min(Math.floor(cx), width - 2), j = Math.min(Math.floor(cy), height - 2), k = j * width + i;
-    const mixed = (k) => levels[k] + (cx - i) * (levels[k + 1] - levels[k]);
-    return mixed(k) + (cy - j) * (mixed(k + width) - mixed(k));
+    const interpolate = (k) => levels[k] + (cx - i) * (levels[k + 1] - levels[k]);
+    return interpolate(k) + (cy - j) * (interpolate(k + width) - interpolate(k));
   };
   let place = start;
   for (let round = 0; round < ROUNDS; round++) {
@@ -43,7 +43,7 @@ const leastSquares = (columns, wanted, damping = 0) => solve(
 
 const cross = ([a, b, c], [x, y, z]) => [b * z - c * y, c * x - a * z, a * y - b * x];
 const unit = (a) => times(1 / Math.hypot(...a), a);
-const mix = (amounts, vectors) => vectors.map((vector, k) => times(amounts[k], vector)).reduce(plus);
+const combine = (amounts, vectors) => vectors.map((vector, k) => times(amounts[k], vector)).reduce(plus);
 
 /* A camera to which flat points (x, y) of the sheet appear about at `pixels`, if its focal length is as long as
    the picture is wide: the eight numbers of a projection, made a turn and a place (Zhang 2000). */
@@ -56,18 +56,18 @@ const guess = (points, pixels, centre, { axes, first }) => {
   const h = [...leastSquares(rows[0].map((_, k) => rows.map((row) => row[k])), near.flat()), 1];
   const [right, along, shift] = [0, 1, 2].map((k) => [h[k], h[k + 3], h[k + 6]]);
   const x = unit(right), z = unit(cross(x, along)), y = cross(z, x);
-  const rotation = [0, 1, 2].map((i) => mix([x[i], y[i], z[i]], axes));
-  return { focal, centre, rotation, position: minus(first, mix(times(1 / Math.hypot(...right), shift), rotation)) };
+  const rotation = [0, 1, 2].map((i) => combine([x[i], y[i], z[i]], axes));
+  return { focal, centre, rotation, position: minus(first, combine(times(1 / Math.hypot(...right), shift), rotation)) };
 };
 
 /* A camera changed by seven numbers: its focal length, a small turn of the `pivot` that it looks at, and where
    it sees that, all as shares; two more move its middle, in focal lengths. */
-const changed = (camera, pivot, [longer, ...by]) => {
+const changeCamera = (camera, pivot, [longer, ...by]) => {
   const [across = 0, down = 0] = by.slice(6), centre = plus(camera.centre, times(camera.focal, [across, down]));
   const turn = by.slice(0, 3), angle = Math.hypot(...turn) || 1e-300;
   const seen = camera.rotation.map((axis) => dot(axis, minus(pivot, camera.position)));
   const rotation = multiply(rotationAround(times(1 / angle, turn), angle), camera.rotation);
-  const position = minus(pivot, mix(plus(seen, times(seen[2], by.slice(3, 6))), rotation));
+  const position = minus(pivot, combine(plus(seen, times(seen[2], by.slice(3, 6))), rotation));
   return { focal: camera.focal * (1 + longer), centre, rotation, position };
 };
 
@@ -81,14 +81,14 @@ const standardError = (slopes, error) => {
 /* The camera whose pictures of `places` (n, 3) lie nearest to `pixels` (Levenberg and Marquardt); how far
    off they are, in pixels, as `error`; and the standard error of its focal length, over it, as `spread`. */
 const fit = (camera, places, pixels, unknowns) => {
-  const pivot = mean(places), missed = (one) => places.flatMap((place, i) => minus(pixels[i], project(one, place)));
+  const pivot = mean(places), residuals = (one) => places.flatMap((place, i) => minus(pixels[i], project(one, place)));
   const each = (value) => Array.from({ length: unknowns }, (_, k) => value(k));
-  const nudge = (k, by) => missed(changed(camera, pivot, each((i) => (i === k ? by : 0))));
+  const nudge = (k, by) => residuals(changeCamera(camera, pivot, each((i) => (i === k ? by : 0))));
   const square = (error) => dot(error, error);
   const slopesOf = () => each((k) => times(5e5, minus(nudge(k, -1e-6), nudge(k, 1e-6))));
-  let error = missed(camera), damping = 1e-3;
+  let error = residuals(camera), damping = 1e-3;
   for (let round = 0; round < 100 && damping < 1e12; round++) {
-    const next = changed(camera, pivot, leastSquares(slopesOf(), error, damping)), left = missed(next);
+    const next = changeCamera(camera, pivot, leastSquares(slopesOf(), error, damping)), left = residuals(next);
     const gain = square(error) - square(left), small = Math.abs(gain) < 1e-12 * square(error);
     damping *= gain > 0 ? 0.1 : 10;
     if (gain > 0) [camera, error] = [next, left];
@@ -103,6 +103,6 @@ const fit = (camera, places, pixels, unknowns) => {
 export const calibrateCamera = (ids, corners, width, height, sheet, near = null) => {
   const points = ids.flatMap((id) => sheet.markers[id]), centre = [width / 2, height / 2];
   const pixels = corners.flat().map((corner) => plus(corner, [0.5, 0.5])); // from the middle of a pixel
-  const places = points.map((point) => plus(sheet.first, mix(point, sheet.axes.slice(0, 2))));
+  const places = points.map((point) => plus(sheet.first, combine(point, sheet.axes.slice(0, 2))));
   return fit(near ?? guess(points, pixels, centre, sheet), places, pixels, near ? 9 : 7);
 };

@@ -1,6 +1,8 @@
 /* Colour spaces: three planes in about 0..1 of a photo { data, width, height }, four bytes a pixel, as OpenCV makes
    them for vmc_lib/where/appearance.py, to the bit. */
-const single = Math.fround, TINY = 2 ** -23, UNITS = Float32Array.from({ length: 256 }, (_, byte) => byte / 255);
+import { single } from "./filters.js";
+
+const TINY = 2 ** -23, UNITS = Float32Array.from({ length: 256 }, (_, byte) => byte / 255);
 
 const HSV = ({ data, width, height }) => {
   const planes = [0, 1, 2].map(() => new Float32Array(width * height)), [hue, saturation, value] = planes;

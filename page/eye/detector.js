@@ -1,5 +1,5 @@
 /* The object detector for photographs (vmc_lib/where/detector.py): it scores candidates, and keeps those that pass. */
-import { falling } from "./boxes.js";
+import { argsortFalling } from "./boxes.js";
 import { gradients } from "./features.js";
 import { each } from "./pieces.js";
 
@@ -30,5 +30,5 @@ export const detect = function* (detector, photo, candidates) {
   const boxes = [...candidates, ...windowGrid(photo, detector.windows)];
   const scores = yield* each(boxes, (box) => svmScore(detector, gradients(photo, box)), EVERY);
   const passes = (i) => scores[i] > detector.gate || i >= candidates.length;
-  return { boxes: falling(scores).filter(passes).map((i) => boxes[i]) };
+  return { boxes: argsortFalling(scores).filter(passes).map((i) => boxes[i]) };
 };

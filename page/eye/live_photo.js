@@ -93,7 +93,7 @@ class LivePhoto extends YourPhoto {
   async followFilm(video, film) {
     const { sheet } = this.given, snapshot = snapshots(video);
     Object.assign(this, { aimed: null, stay: null });
-    for (let box = null, begun = performance.now(); this.film === film; await frame()) {
+    for (let box = null, last = performance.now(); this.film === film; await frame()) {
       if (!film.active) throw new Error("it was unplugged, or taken by another program");
       const picture = await snapshot(), eye = letterbox(picture, ...EYE);
       const read = await inPieces(readSheet(eye, sheet, EYE, true)), { camera } = read;
@@ -104,10 +104,12 @@ class LivePhoto extends YourPhoto {
       this.drawSheet(read);
       this.photo.photo = picture;
       this.drawArm();
-      if (!camera) this.say(words.need(read, sheet));
+      if (!camera) this.say(words.needWords(read, sheet));
       else if (found) this.arriveAt((box = found));
       else box = await this.search(film);
-      this.tell({ followed: `${(-1000 / (begun - (begun = performance.now()))).toFixed(0)} frames/s` });
+      const now = performance.now();
+      this.tell({ followed: `${(1000 / (now - last)).toFixed(0)} frames/s` });
+      last = now;
     }
   }
 
@@ -116,7 +118,7 @@ class LivePhoto extends YourPhoto {
     this.say("Looking for a shuttlecock …");
     const report = (stage, found) => this.film === film && stage !== "sight" && this[`show${words.capital(stage)}`](found);
     const sight = await see(this.brain, this.bare, { camera: this.camera, report });
-    if (this.film === film) this.tell({ found: words.found(sight) });
+    if (this.film === film) this.tell({ found: words.foundWords(sight) });
     return sight.box;
   }
 
@@ -137,7 +139,7 @@ class LivePhoto extends YourPhoto {
     if (this.aimed && distance(place, this.aimed) < MOVED) return;
     if (this.aimed) this.forgetReach();
     Object.assign(this, { turn: {}, aimed: null, place });
-    this.tell({ place: words.where(place) });
+    this.tell({ place: words.placeWords(place) });
     this.rest();
     if (now - this.stay.since < STILL) return;
     this.aimed = place;

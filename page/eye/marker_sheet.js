@@ -17,7 +17,7 @@ const greyLevels = ({ data, width, height }) => {
 };
 
 /* A marker's code in a mirror. */
-const mirrored = (code) => code.map((_, i) => code[i - (i % 4) + 3 - (i % 4)]);
+const mirrorCode = (code) => code.map((_, i) => code[i - (i % 4) + 3 - (i % 4)]);
 
 /* The camera of all markers; where these disagree by more than `most`, of all but one: it may be half covered. */
 function* bestFit(calibrate, all, most, fewest) {
@@ -32,7 +32,7 @@ function* bestFit(calibrate, all, most, fewest) {
    as a film's frames are, it is not asked whether it was cropped. */
 export function* readSheet(photo, sheet, size, whole = false) {
   const { width, height } = photo, levels = greyLevels(photo), { codes, fewest, refusals } = sheet;
-  const patterns = [...codes, ...codes.map(mirrored)];
+  const patterns = [...codes, ...codes.map(mirrorCode)];
   const seen = yield* findMarkers(levels, width, height, patterns, codes.length);
   const markers = seen.filter(({ id }) => id < codes.length), ids = markers.map(({ id }) => id);
   const none = (why) => ({ markers, camera: null, why });
@@ -84,7 +84,7 @@ export const paperLight = ({ data, width, height }, camera, { page: [a, b, , d] 
 
 /* Of each row of a picture, the first and last pixel on or within a convex polygon, whose lines are drawn from
    their left ends as OpenCV draws them (Bresenham 1965). */
-const filled = (polygon, height) => {
+const polygonRows = (polygon, height) => {
   const rows = Array.from({ length: height }, () => [Infinity, -Infinity]);
   const corners = polygon.map((corner) => corner.map(Math.round));
   corners.forEach((corner, k) => {
@@ -98,7 +98,7 @@ const filled = (polygon, height) => {
   });
   return rows;
 };
-const grown = (rows, by) => rows.map((_, y) => {
+const dilate = (rows, by) => rows.map((_, y) => {
   const near = rows.slice(Math.max(0, y - by), y + by + 1);
   return [Math.min(...near.map(([left]) => left)) - by, Math.max(...near.map(([, right]) => right)) + by];
 });
@@ -109,8 +109,8 @@ const median = (values) => {
 
 /* The photo, painted over within an outline, and a little beyond, in the colour around it. */
 export const paintOver = ({ data, width, height }, polygon) => {
-  const covered = grown(filled(polygon, height), 4), inside = [], ring = [];
-  grown(covered, 7).forEach(([left, right], y) => {
+  const covered = dilate(polygonRows(polygon, height), 4), inside = [], ring = [];
+  dilate(covered, 7).forEach(([left, right], y) => {
     const [from, to] = covered[y];
     for (let x = Math.max(0, left); x <= Math.min(right, width - 1); x++)
       (x >= from && x <= to ? inside : ring).push(y * width + x);

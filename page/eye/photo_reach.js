@@ -34,7 +34,7 @@ export class PhotoReach extends Reach {
   async reach(target, bearing) {
     const { turn } = this, from = this.bearing;
     this.rest();
-    if (!(await this.awake()) || turn !== this.turn) return; // it has said why
+    if (!(await this.wake()) || turn !== this.turn) return; // it has said why
     Object.assign(this, { target, plan: planning.plan(target, this.templateSet) });
     const start = await frame();
     for (let share = calm.matches ? 1 : 0; ; share = Math.min(1, ((await frame()) - start) / TURNING)) {
@@ -70,16 +70,16 @@ export class PhotoReach extends Reach {
     const { brain, calibrated, camera, planned, given } = this;
     if (!calibrated) return; // another photo was chosen
     const place = this.guesses
-      ? words.guessed(given.guess, camera, brain.selector)
-      : words.placed(given.placeAccuracy, camera);
-    this.say(words.reached(calibrated.error, planned.error, this.guesses) + place + this.doubt);
+      ? words.guessWords(given.guess, camera, brain.selector)
+      : words.placeAccuracyWords(given.placeAccuracy, camera);
+    this.say(words.reachWords(calibrated.error, planned.error, this.guesses) + place + this.doubt);
     keep.disabled = !this.drawing.view.body; // without WebGL
   }
 
   /* The photo with the arm in it, and a line that says what it is, as a file. */
   keep() {
     this.drawArm();
-    saveWithLine(this.photo.context.canvas, words.kept(this.calibrated.error, this.guesses), "reach.jpg");
+    saveWithLine(this.photo.context.canvas, words.captionOf(this.calibrated.error, this.guesses), "reach.jpg");
   }
 
   world(point) {

@@ -3,7 +3,7 @@ import { millimetres } from "../arm/live.js";
 import { distance, dot, minus } from "../vectors.js";
 import { hasRightSize } from "./box_selection.js";
 import { physicalSize } from "./camera.js";
-import { counted } from "./see.js";
+import { countWords } from "./see.js";
 import { fromBeyond } from "./marker_sheet.js";
 
 const AGAIN = "Another photo may do: from nearer, in even light.";
@@ -14,23 +14,23 @@ const SCALE = ` Is a shuttlecock there? Then ${MEASURE}`;
 export const capital = (words) => words[0].toUpperCase() + words.slice(1);
 
 /* What was found. */
-export const found = ({ summary }) => `${capital(summary)}.`;
+export const foundWords = ({ summary }) => `${capital(summary)}.`;
 
 /* A sheet that is seen from its far side may lie upside down. */
-const upsideDown = (camera) => (fromBeyond(camera) ? " Does the sheet’s arrow point away from you?" : "");
+const upsideDownDoubt = (camera) => (fromBeyond(camera) ? " Does the sheet’s arrow point away from you?" : "");
 
 export const outOfReach = (camera) =>
-  `Out of reach: the hand can be where it is shaded. Lay it there, or point at another box.${upsideDown(camera)}`;
+  `Out of reach: the hand can be where it is shaded. Lay it there, or point at another box.${upsideDownDoubt(camera)}`;
 
 /* The camera of a sheet that was read, above the table. */
-export const camera = ({ markers, camera, why }, { fewest, first }) => {
-  const seen = counted(markers.length, "marker");
+export const cameraWords = ({ markers, camera, why }, { fewest, first }) => {
+  const seen = countWords(markers.length, "marker");
   if (camera) return `${(100 * (camera.position[1] - first[1])).toFixed(0)} cm above the table (${seen})`;
   return `unknown: ${seen} seen${why ? "" : `, ${fewest} needed`}`;
 };
 
 /* What the arm needs, where a sheet that was read gave no camera. */
-export const need = ({ markers: { length }, why }, { fewest }) =>
+export const needWords = ({ markers: { length }, why }, { fewest }) =>
   why ? `${capital(why)}. Then the arm can reach.`
     : "To reach, the arm needs the printed sheet: lay it flat on the table, all of it in the photo, in even light. " +
       `${length} of its markers ${length === 1 ? "is" : "are"} seen, ${fewest} are needed.`;
@@ -39,25 +39,25 @@ export const need = ({ markers: { length }, why }, { fewest }) =>
 export const isBare = ({ markers, why }) => !markers.length && !why;
 
 /* What comes next; or what the reader may do, with so many boxes to choose from. */
-export const next = ({ box, boxes }, count, read, sheet) => {
+export const nextWords = ({ box, boxes }, count, read, sheet) => {
   if (!count || (!boxes.length && !read.camera)) return AGAIN;
-  if (!read.camera && !isBare(read)) return need(read, sheet);
+  if (!read.camera && !isBare(read)) return needWords(read, sheet);
   if (box) return "Planning the reach …";
   return POINT + (read.camera ? SCALE : "");
 };
 
 /* How far a hand ended from the place that it reached for. */
-export const reached = (calibrated, planned, guesses) =>
+export const reachWords = (calibrated, planned, guesses) =>
   `Corrected by trial, the hand ends ${millimetres(calibrated, 1)} from the place ${guesses ? "guessed" : "seen"}; ` +
   `it began from ${millimetres(planned, 1)}. `;
 
 /* How far off places are that a sheet tells: in half of the photos, in nine of ten. */
-export const placed = ([half, most], camera) =>
-  `In half of our test photos that place is right to ${millimetres(half)}, in nine of ten to ${millimetres(most)}.${upsideDown(camera)}`;
+export const placeAccuracyWords = ([half, most], camera) =>
+  `In half of our test photos that place is right to ${millimetres(half)}, in nine of ten to ${millimetres(most)}.${upsideDownDoubt(camera)}`;
 
 /* What a place is that no sheet tells, and how far off its distance may be: shuttlecocks differ in size. Where a usual
    lens would see it nearer than is likely, the camera was taken away from it (camera.js). */
-export const guessed = ({ slant, size, place, nearest }, { position, rotation }, { sizes: [least, most] }) => {
+export const guessWords = ({ slant, size, place, nearest }, { position, rotation }, { sizes: [least, most] }) => {
   const cm = (metres) => `${(100 * metres).toFixed(0)} cm`, share = (most - least) / (most + least);
   const isPart = dot(rotation[2], minus(place, position)) < nearest + 1e-6, held = `${((180 * slant) / Math.PI).toFixed(0)}°`;
   const camera = isPart
@@ -69,7 +69,7 @@ export const guessed = ({ slant, size, place, nearest }, { position, rotation },
 };
 
 /* What a picture is that a reader keeps. */
-export const kept = (error, guesses) =>
+export const captionOf = (error, guesses) =>
   `A model arm of six muscles, drawn into a photograph. It missed the place ${guesses ? "guessed" : "seen"} by ${millimetres(error, 1)}.`;
 
 /* What is to be said of a shuttlecock that, by the sheet, is too large or too small for one. */
@@ -80,7 +80,7 @@ export const sizeDoubt = ({ boxes, brain: { selector }, camera, marks }, number)
 };
 
 /* A place, from the shoulder. */
-export const where = ([ahead, , right]) => {
+export const placeWords = ([ahead, , right]) => {
   const [far, aside] = [ahead, right].map((x) => `${(100 * Math.abs(x)).toFixed(0)} cm`);
   return `${far} ${ahead > 0 ? "ahead" : "behind"}, ${aside} ${right > 0 ? "right" : "left"} of the shoulder`;
 };

@@ -5,7 +5,7 @@ import { inPieces } from "./pieces.js";
 import { propose } from "./selective_search.js";
 
 export const percent = (p) => `${(100 * p).toFixed(0)} %`;
-export const counted = (count, thing, plural = "s") => `${count} ${thing}${count === 1 ? "" : plural}`;
+export const countWords = (count, thing, plural = "s") => `${count} ${thing}${count === 1 ? "" : plural}`;
 
 /* The result of both pathways: boxes, the likeliest first, and their probability of holding a shuttlecock. */
 export class Sight {
@@ -28,7 +28,7 @@ export class Sight {
     const { probability } = this, sure = probability.slice(0, this.shuttlecocks.length).map(percent);
     if (sure.length) return `${sure.length > 1 ? `${sure.length} shuttlecocks` : "a shuttlecock"}, ${sure.join(", ")} sure`;
     if (!probability.length) return "nothing that looks like an object";
-    return `no shuttlecock; likeliest of ${counted(probability.length, "box", "es")}: ${percent(Math.max(...probability))}`;
+    return `no shuttlecock; likeliest of ${countWords(probability.length, "box", "es")}: ${percent(Math.max(...probability))}`;
   }
 }
 

@@ -9,7 +9,7 @@ import { paintOver, paperLight, readSheet, sheetOutline } from "./marker_sheet.j
 import { EYE, PhotoReach } from "./photo_reach.js";
 import * as words from "./photo_words.js";
 import { inPieces } from "./pieces.js";
-import { counted, percent, see } from "./see.js";
+import { countWords, percent, see } from "./see.js";
 import { unpack } from "./unpack.js";
 
 const LARGEST = 1200, MANY = 8; // pixels, of the longer side of what the sheet is read in; boxes to choose from
@@ -78,7 +78,7 @@ export class YourPhoto extends PhotoReach {
     this.say(why);
   }
 
-  /* Nothing is known of a new photo, */
+  /* Nothing is known of a new photo. */
   forget() {
     Object.assign(this, { read: null, camera: null, sight: null, boxes: [], bearing: 0 });
     this.tell({ found: "", camera: "–", candidates: "–", kept: "–", followed: "–" });
@@ -87,7 +87,7 @@ export class YourPhoto extends PhotoReach {
     this.rest();
   }
 
-  /* or of a reach for another box. */
+  /* Nothing is known of a reach for another box. */
   forgetReach() {
     Object.assign(this, { place: null, plan: null, planned: null, calibrated: null });
     this.tell({ place: "–", planned: "–", calibrated: "–" });
@@ -104,7 +104,7 @@ export class YourPhoto extends PhotoReach {
     const { camera } = read, { sheet } = this.given;
     Object.assign(this, { read, camera });
     if (camera) this.photo.drawSheet(sheetOutline(camera, sheet));
-    this.tell({ camera: words.camera(read, sheet) });
+    this.tell({ camera: words.cameraWords(read, sheet) });
   }
 
   showEye(brain) {
@@ -114,13 +114,13 @@ export class YourPhoto extends PhotoReach {
 
   showCandidates({ boxes }) {
     this.photo.drawCandidates(boxes);
-    this.tell({ candidates: counted(boxes.length, "box", "es") });
+    this.tell({ candidates: countWords(boxes.length, "box", "es") });
   }
 
   showKept({ boxes }) {
     this.boxes = boxes;
     this.photo.drawBoxes(boxes.map((box) => ({ box, colour: "orange" })));
-    this.tell({ kept: counted(boxes.length, "box", "es") });
+    this.tell({ kept: countWords(boxes.length, "box", "es") });
   }
 
   showNames({ boxes, probability }) {
@@ -143,8 +143,8 @@ export class YourPhoto extends PhotoReach {
     const reaches = this.camera || (this.guesses && boxes.length) ? " Press one, and the arm reaches for it:" : "";
     choice.innerHTML = `${asks}${reaches} ${this.marks.map(button).join("")}`;
     choice.hidden = !this.boxes.length;
-    this.tell({ found: words.found(sight) });
-    this.say(words.next(sight, this.boxes.length, this.read, this.given.sheet));
+    this.tell({ found: words.foundWords(sight) });
+    this.say(words.nextWords(sight, this.boxes.length, this.read, this.given.sheet));
   }
 
   /* Of the shuttlecocks the first that the arm can reach; else the first. */
@@ -168,7 +168,7 @@ export class YourPhoto extends PhotoReach {
     return locate(this.brain.localiser, this.bare, this.boxes[number], this.camera);
   }
 
-  /* Without a sheet, what is in a box is given a place, and the camera that would see it there; */
+  /* Without a sheet, what is in a box is given a place, and the camera that would see it there. */
   guess(number) {
     const { guess } = this.given;
     this.camera = guessCamera(this.boxes[number], guess, times(0.5, EYE), this.diagonal);
@@ -176,11 +176,11 @@ export class YourPhoto extends PhotoReach {
     this.tell({ place: "a guess" });
   }
 
-  /* with one, it is located. RangeError where it is out of reach. */
+  /* With a sheet, what is in a box is located. RangeError where it is out of reach. */
   measure(number) {
     this.doubt = words.sizeDoubt(this, number);
     this.place = this.locate(number);
-    const place = words.where(this.place);
+    const place = words.placeWords(this.place);
     this.tell({ place });
     const { turn } = turnTowards(this.given.kinematics, this.place);
     this.tell({ place: `${place}; the trunk turns ${degrees(turn, 0)}` });
@@ -192,7 +192,7 @@ export class YourPhoto extends PhotoReach {
     this.forgetReach();
     this.photo.drawBoxes(this.marks, number);
     this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
-    if (!this.camera && !this.guesses) return this.say(words.need(this.read, this.given.sheet));
+    if (!this.camera && !this.guesses) return this.say(words.needWords(this.read, this.given.sheet));
     try {
       if (this.guesses) this.guess(number);
       else this.measure(number);

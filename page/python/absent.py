@@ -72,6 +72,7 @@ REFUSED = {"asyncio"}  # a page waits for nothing while lines run
 BUILTINS = vars(builtins) | {
     "__import__": _import,
     "input": _refuse("This page cannot ask: write the value into your lines"),
-    "exit": _refuse("Nothing to leave here: a function ends with return"),
-    "quit": _refuse("Nothing to leave here: a function ends with return"),
 }
+BUILTINS |= dict.fromkeys(
+    ("exit", "quit"), _refuse("Nothing to leave here: a function ends with return")
+)

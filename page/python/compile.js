@@ -24,7 +24,7 @@ def strip_docstrings(source):
             node.body[0].value.value = ""
     return tree
 
-def compiled(sources):
+def compile_modules(sources):
     """A zip of the modules that are imported by now, and were not in the last one."""
     stems = {name.replace(".", "/") for name in sys.modules} - done
     done.update(stems)
@@ -45,7 +45,7 @@ import ast, inspect, numpy.random  # what the grader needs
 site = Path(numpy.__file__).parents[1]
 library = zipfile.ZipFile("/lib/python312.zip")
 library = {name: library.read(name) for name in library.namelist()}`;
-const FIRST = `compiled(library | sources("numpy/**/*.py"))`;
+const FIRST = `compile_modules(library | sources("numpy/**/*.py"))`;
 const PLOTS = `
 import matplotlib
 matplotlib.use("svg")
@@ -54,7 +54,7 @@ from matplotlib.backends import backend_svg
 figure, axes = matplotlib.pyplot.subplots(layout="constrained")
 axes.set_title("$x$")
 figure.savefig(io.StringIO(), format="svg")
-compiled({name: source for name, source in sources("**/*.py").items() if "numpy" not in name})`;
+compile_modules({name: source for name, source in sources("**/*.py").items() if "numpy" not in name})`;
 
 (async () => {
   const python = await loadPyodide({ indexURL: VENDOR, packages: ["numpy"] });

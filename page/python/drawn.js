@@ -14,7 +14,7 @@ const STYLES = /^(--|fill|stroke|stop|opacity|font|text-anchor|image-rendering|v
 const IDS = /^(?=.*[\d-])[\w-]+$|^p[\da-f]{10}$/;
 const PLACES = /^#[\w-]+$|^\s*data:image\/(png|jpeg|webp);base64,[\w+/=\s]*$/; // in the page, or a photo of its own
 
-const holds = (name, value) => {
+const isAllowed = (name, value) => {
   if (!ATTRIBUTES.has(name)) return false;
   if (name === "id") return IDS.test(value);
   if (name === "class") return value.split(" ").every((one) => CLASSES.has(one));
@@ -26,11 +26,11 @@ const holds = (name, value) => {
 export const clean = (part) => {
   for (const node of part.querySelectorAll("*")) {
     if (!ELEMENTS.has(node.localName)) { node.remove(); continue; }
-    for (const { name, value } of [...node.attributes]) if (!holds(name, value)) node.removeAttribute(name);
+    for (const { name, value } of [...node.attributes]) if (!isAllowed(name, value)) node.removeAttribute(name);
     for (const name of [...node.style]) if (!STYLES.test(name)) node.style.removeProperty(name);
   }
   return part;
 };
 
 /* The same of a scene's messages: the page knows the anatomy, and its names. */
-export const settle = (messages) => messages.filter((message) => !message.startsWith("anatomy|"));
+export const cleanMessages = (messages) => messages.filter((message) => !message.startsWith("anatomy|"));

@@ -7,24 +7,24 @@ import { disable } from "./disable.js";
 import * as python from "./interpreter.js";
 import { onKey, type } from "./typing.js";
 
-const escaped = (text) => `${text}`.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt()};`);
+const escape = (text) => `${text}`.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt()};`);
 const MARKS = /`([^`]+)`|\$([^$]+)\$|\*\*([^*]+)\*\*|\*([^*]+)\*/g;
 
 /* A line of Markdown as HTML, as vmc_lib.show.figures.inline has it. */
 export const inline = (text) =>
-  escaped(text).replace(MARKS, (_, code, tex, strong, words) =>
+  escape(text).replace(MARKS, (_, code, tex, strong, words) =>
     code ? `<code>${code}</code>` : tex ? `<span class="math inline">\\(${tex.trim()}\\)</span>`
       : strong ? `<strong>${strong}</strong>` : `<em>${words}</em>`);
 
 const field = (cell) => cell.querySelector("textarea");
 export const book = (cell) => field(cell)?.defaultValue ?? cell.querySelector("pre").textContent;
 
-/* What a cell's reader ran last, else the book's: what only stands there is no part of a check, for a link may
-   have brought it. */
-const ran = (cell) => field(cell)?.ran ?? book(cell);
+/* What a cell's reader ran last, ever and since the page opened; else the book's. What only stands there may be a link's. */
+const keptRun = (cell) => field(cell)?.ran ?? book(cell);
+export const runHere = (cell) => field(cell)?.lastRun ?? book(cell);
 
 /* The cells of the chapter's code before one of them; no solution is among them. */
-export const above = (cell) =>
+export const cellsAbove = (cell) =>
   [...document.querySelectorAll(".cell:has(> .cell_input, > details > .cell_input)")]
     .filter((one) => !one.closest(".solution") && one.compareDocumentPosition(cell) & 4); // one before cell
 
@@ -32,13 +32,13 @@ export const above = (cell) =>
 export const users = { figures: () => [] };
 
 const keyOf = (name) => `${location.pathname} ${name}`;
-const sum = (text) => [...text].reduce((sum, sign) => (31 * sum + sign.codePointAt()) | 0, 0); // tells editions of a cell apart
+const checksum = (text) => [...text].reduce((sum, sign) => (31 * sum + sign.codePointAt()) | 0, 0); // tells editions of a cell apart
 const isText = ({ said = [], ran = "", judged = "", mine = [] }) => [said, ran, judged, mine].flat().every((one) => typeof one === "string");
 /* What is kept of a cell, where it is what an `Editor` keeps: others may write there. */
-const read = (key, kept = memory.parsed(key)) =>
+const read = (key, kept = memory.getParsed(key)) =>
   typeof kept?.typed === "string" && isText(kept) && { ...kept, mine: [kept.mine ?? []].flat() };
 const FULL = "This browser has no room for your lines: copy them before you close the page.";
-const again = (said) => said.replace(/: (Figures? [\d., and]+) now runs? yours/, ". Your lines are kept: press Run, and $1 will run them again"); // after a reload
+const messageAfterReload = (said) => said.replace(/: (Figures? [\d., and]+) now runs? yours/, ". Your lines are kept: press Run, and $1 will run them again");
 const make = (tag, more) => Object.assign(document.createElement(tag), more);
 
 /* A cell in whose place the reader writes, and its form: buttons, and what was said of the lines. */
@@ -75,7 +75,7 @@ class Editor {
   }
 
   show([message, printed]) {
-    this.status.innerHTML = `<p>${inline(message)}</p>${printed ? `<pre>${escaped(printed)}</pre>` : ""}`;
+    this.status.innerHTML = `<p>${inline(message)}</p>${printed ? `<pre>${escape(printed)}</pre>` : ""}`;
     setEquations(this.status);
   }
 
@@ -85,7 +85,7 @@ class Editor {
     const { area, empty, key, said, judged, mine } = this, typed = area.value, last = area.ran ?? empty;
     if (this.brought.has(typed) && typed !== last) return;
     this.merge();
-    const all = JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) });
+    const all = JSON.stringify({ typed, ran: last, said, judged, mine, book: checksum(empty) });
     if (typed === empty && last === empty && !mine.length) memory.remove(key);
     else if (!memory.set(key, all) && !this.status.textContent.includes(FULL))
       this.show([[...(said ?? [""]).slice(0, 1), FULL].join(" "), said?.[1]]);
@@ -117,8 +117,8 @@ class Editor {
     area.value = kept.typed;
     this.mine = kept.mine;
     Object.assign(this, { said: kept.said, judged: kept.judged });
-    if (kept.said?.length) this.show([again(kept.said[0]), kept.said[1]]);
-    if ((kept.book ?? sum(empty)) === sum(empty)) area.ran = kept.ran;
+    if (kept.said?.length) this.show([messageAfterReload(kept.said[0]), kept.said[1]]);
+    if ((kept.book ?? checksum(empty)) === checksum(empty)) area.ran = kept.ran;
     else return this.offer("The book’s cell has changed since you wrote yours. It is now:", empty);
     this.close();
   }
@@ -136,8 +136,8 @@ class Editor {
 
   /* Nothing is offered any more but the reader's own lines, where others stand in their place. */
   close() {
-    const own = (lines) => this.choice("Your own lines:", lines, "Take them back", "Forget them", () => this.drop(lines));
-    this.beside.replaceChildren(...this.mine.flatMap(own));
+    const ownChoice = (lines) => this.choice("Your own lines:", lines, "Take them back", "Forget them", () => this.drop(lines));
+    this.beside.replaceChildren(...this.mine.flatMap(ownChoice));
   }
 
   bring(text) {
@@ -174,7 +174,7 @@ class Editor {
   }
 
   /* The figures go back to the book's lines; the reader's stay in the field. */
-  back() {
+  goBack() {
     this.end();
     this.said = this.judged = undefined;
     this.run(this.empty);
@@ -189,7 +189,7 @@ class Editor {
     stop.disabled = false;
     this.follow();
     try {
-      const code = [above(cell).map(ran), lines];
+      const code = [cellsAbove(cell).map(keptRun), lines];
       const question = graded ? ["check", ...code, graded] : ["run", ...code, this.empty, users.figures(cell, lines)];
       const [said, printed] = await python.ask(["grader", ...question], (text) => this.show([text]), asked.signal);
       this.said = [`${said}`, `${printed}`];
@@ -219,7 +219,7 @@ class Editor {
 }
 
 /* A cell's *Edit*: it opens the cell, which is open at once where the reader has changed it before. A link may
-   bring lines, the reader `take` them, and go `back` to the book's. */
+   bring lines, the reader `take` them, and `goBack` to the book's. */
 const offer = (cell) => {
   const names = [...book(cell).matchAll(/^def (\w+)/gm)].map(([, one]) => one), [name] = names, called = names.join(", ");
   const form = make("form", { className: "vmc-check" });
@@ -235,7 +235,7 @@ const offer = (cell) => {
   };
   cell.addEventListener("vmc-bring", ({ detail }) => (editor ?? open()).bring(detail));
   cell.addEventListener("vmc-take", ({ detail }) => editor.take(detail));
-  cell.addEventListener("vmc-back", () => editor.back());
+  cell.addEventListener("vmc-back", () => editor.goBack());
   form.firstChild.addEventListener("click", () => {
     open();
     cell.querySelector("textarea").focus();

@@ -59,14 +59,14 @@ def run(above, typed, book="", figures=()):
     verify = {"verify": lambda *given: deviations.append(deviation(*given))}
     said, printed = _run(typed, definitions(above, typed, known=verify))
     if not said and any(deviations):
-        laws = _given_otherwise(_statements(typed), _statements(book))
+        laws = _reassigned_names(_statements(typed), _statements(book))
         follow = [number for number, *code in figures if laws & {*changed_names(*code)}]
-        said = own_law(sorted(laws), next(filter(None, deviations)), _effect(follow))
+        said = own_law(sorted(laws), next(filter(None, deviations)), _figures_in_words(follow))
     agrees = ", and gives what the library gives" if deviations else ""
     return said or f"✓ It runs{agrees}.", printed[:LONGEST]
 
 
-def _effect(figures):
+def _figures_in_words(figures):
     """Which figures, by their numbers, run a law of the reader's, in words."""
     if not figures:
         return "no figure of this page uses it"
@@ -122,12 +122,12 @@ def needed_statements(above, typed, known=frozenset()):
     while True:
         names, kept = set(late), []
         for statement in reversed(lines):
-            names = _before(statement, names) - known
+            names = _names_before(statement, names) - known
         for statement in reversed(code):
             if not names & set(statement.code.co_names):  # soon said: most are not needed
                 continue
-            if names & (_given(statement) | _mutated_names(statement.tree)):
-                names = _before(statement, names) - known
+            if names & (_assigned_names(statement) | _mutated_names(statement.tree)):
+                names = _names_before(statement, names) - known
                 kept.append(statement)
         functions = [one for each in (*lines, *kept) for one in _functions(each.code)]
         more = {name for one in functions for name in _names(one, *READ)} - known
@@ -136,26 +136,27 @@ def needed_statements(above, typed, known=frozenset()):
         late |= more
 
 
-def _before(statement, names):
+def _names_before(statement, names):
     """The names that must be there before a statement, so that these are after it."""
     always = not isinstance(statement.tree, ast.If | ast.For | ast.While | ast.With | ast.Try)
-    return names - (_given(statement) if always else set()) | {*_names(statement.code, *READ)}
+    assigned = _assigned_names(statement) if always else set()
+    return names - assigned | {*_names(statement.code, *READ)}
 
 
-def _given(statement):
+def _assigned_names(statement):
     return set(_names(statement.code, "STORE_NAME"))
 
 
 def changed_names(above, book, cell):
     """The names that a demo's cell needs, and that the reader's code gives otherwise."""
-    return sorted(_given_otherwise(needed_statements(above, cell), needed_statements(book, cell)))
+    return sorted(_reassigned_names(needed_statements(above, cell), needed_statements(book, cell)))
 
 
-def _given_otherwise(statements, book):
+def _reassigned_names(statements, book):
     """The names that statements give, those of the book left out."""
     kept = {statement.source for statement in book}
     ours = [statement for statement in statements if statement.source not in kept]
-    return {name for statement in ours for name in _given(statement)}
+    return {name for statement in ours for name in _assigned_names(statement)}
 
 
 @lru_cache(1000)
@@ -165,10 +166,10 @@ def _statements(lines):
     for one in [] if unreadable(lines) else ast.parse(lines).body:  # some are still being typed
         names = one.names if isinstance(one, ast.ImportFrom) else None
         trees += [ast.ImportFrom(one.module, [n], one.level) for n in names] if names else [one]
-    return [_compiled(tree) for tree in trees]
+    return [_compile(tree) for tree in trees]
 
 
-def _compiled(tree):
+def _compile(tree):
     module = ast.fix_missing_locations(ast.Module([tree], []))
     return Statement(tree, compile(module, "above", "exec"), ast.unparse(tree))
 

@@ -63,7 +63,7 @@ const OPEN = "let worker; onmessage = ({ source, data, ports }) => { if (source 
   "(worker = new Worker(URL.createObjectURL(new Blob([data])))).postMessage(0, ports); }";
 const POLICY = "default-src 'none'; script-src 'unsafe-eval'; worker-src blob:";
 const FORBIDDEN = "The page’s host forbids Python: its policy must be the one that the book’s README states.";
-const opened = () => new Promise((resolve) => {
+const openFrame = () => new Promise((resolve) => {
   const frame = document.createElement("iframe");
   frame.setAttribute("sandbox", "allow-scripts");
   frame.srcdoc = `<script>${OPEN}<\/script><meta http-equiv="Content-Security-Policy" content="${POLICY}">`;
@@ -71,7 +71,7 @@ const opened = () => new Promise((resolve) => {
   document.body.append(frame);
 });
 let frame;
-const send = async (code, ports) => (await (frame ??= opened())).postMessage(code, "*", ports);
+const send = async (code, ports) => (await (frame ??= openFrame())).postMessage(code, "*", ports);
 
 /* A worker: `ask` promises its answer to one question, unless it comes to its `end`, for a reason. What it
    answers is data, whatever it says: a reader's lines may have spoken for it. */
@@ -87,15 +87,15 @@ const launch = () => {
     };
   });
   ended.catch(() => {}); // nobody may be waiting
-  const answered = () => new Promise((resolve) => {
+  const nextAnswer = () => new Promise((resolve) => {
     port.onmessage = ({ data }) => (data?.error === undefined ? resolve(data?.value) : end(data.error));
   });
-  const open = answered(), late = setTimeout(end, 1000 * limit.opening, FORBIDDEN);
+  const open = nextAnswer(), late = setTimeout(end, 1000 * limit.opening, FORBIDDEN);
   open.then(() => clearTimeout(late));
   send(`const unzip = ${unzip};(${work})()`, [port2]);
   const ask = (question) => {
     port.postMessage(question);
-    return Promise.race([ended, answered()]);
+    return Promise.race([ended, nextAnswer()]);
   };
   const load = async (script) => {
     if (!here(script)) await fetchVendored(script);
@@ -103,11 +103,11 @@ const launch = () => {
     return ask({ files: vmcPythonFiles });
   };
   const loaded = {};
-  const failed = (error) => {
+  const stopAndThrow = (error) => {
     stop(error); // so that the next one tries again
     throw error;
   };
-  const ready = (script) => (loaded[script] ??= Promise.race([ended, load(script)]).catch(failed));
+  const ready = (script) => (loaded[script] ??= Promise.race([ended, load(script)]).catch(stopAndThrow));
   ready("python.js").catch(() => {}); // whoever asks is told
   return { ask, end, ready };
 };

@@ -2,7 +2,7 @@
    slider's stops. Where it cannot, or is not asked, the nearest picture of the book stands. And arms
    that plan by such a law. */
 import { address } from "../demo/address.js";
-import { clean, settle } from "./drawn.js";
+import { clean, cleanMessages } from "./drawn.js";
 import * as grade from "./grade.js";
 import * as python from "./interpreter.js";
 
@@ -11,24 +11,23 @@ const FREE = "The sliders now take any value.";
 const LAW = "law."; // before a cell's name, in an address
 const LONGEST = 20_000; // signs of a law in an address: the browser keeps five million in all
 
-const lastRun = (cell) => cell.querySelector("textarea")?.lastRun ?? grade.book(cell);
 const inCode = (names) => names.map((name) => `\`${name.replaceAll("`", "").slice(0, 60)}\``).join(", "); // Markdown, as all that is said here
-const ownCells = (above) => above.filter((one) => lastRun(one) !== grade.book(one));
+const ownCells = (above) => above.filter((one) => grade.runHere(one) !== grade.book(one));
 const figures = []; // that use laws: [a figure's cell, the cells of laws and those above it, what it needs of them]
 
 /* The cells of the chapter's code before one of them, and the laws after it: it may run these, too. */
-const codeOf = (cell) => [...grade.above(cell), ...[...document.querySelectorAll(".tag_runs-in-page")]
+const codeOf = (cell) => [...grade.cellsAbove(cell), ...[...document.querySelectorAll(".tag_runs-in-page")]
   .filter((law) => cell.compareDocumentPosition(law) & 4)];
 
 /* The figures that may run a cell's law, `typed` in it: see `page.python.grader.run`. */
 grade.users.figures = (law, typed) => figures.filter(([, above]) => above.includes(law)).map(([cell, above, needs]) =>
-  [cell.querySelector(".vmc-number")?.textContent.replace(/\D*/, "") ?? "", above.map((one) => (one === law ? typed : lastRun(one))),
+  [cell.querySelector(".vmc-number")?.textContent.replace(/\D*/, "") ?? "", above.map((one) => (one === law ? typed : grade.runHere(one))),
     above.map(grade.book), needs]);
 
 const BACK = '<button type="button" name="back" hidden>Back to the book’s</button>';
 
 /* A line below controls: what it says, and its buttons. */
-const line = (controls, buttons) => {
+const addLine = (controls, buttons) => {
   const line = document.createElement("p");
   line.className = "vmc-law";
   line.innerHTML = `<span role="status"></span> ${buttons}`;
@@ -63,7 +62,7 @@ class Follower {
   constructor(demo) {
     const cell = demo.closest(".cell"), above = codeOf(cell);
     figures.push([cell, above, grade.book(cell)]);
-    const [status, run, back] = line(demo.querySelector(".vmc-controls"),
+    const [status, run, back] = addLine(demo.querySelector(".vmc-controls"),
       `<button type="button" name="run" hidden>Run it</button> ${BACK}`);
     const between = document.createElement("button");
     Object.assign(between, { type: "button", className: "vmc-any", textContent: `Any value (loads Python, ${python.MEGABYTES} MB)` });
@@ -78,7 +77,7 @@ class Follower {
     });
     watch(above, back, () => this.update());
     const name = (one) => one.querySelector("form[data-cell]")?.dataset.cell; // an exercise has none
-    demo.vmcLaws = () => ownCells(above).filter(name).map((one) => [LAW + name(one), lastRun(one)]);
+    demo.vmcLaws = () => ownCells(above).filter(name).map((one) => [LAW + name(one), grade.runHere(one)]);
   }
 
   say(text) {
@@ -87,7 +86,7 @@ class Follower {
 
   /* The code above, as the reader has it and as the book has it, and the demo's own cell. */
   get code() {
-    return [this.above.map(lastRun), this.above.map(grade.book), grade.book(this.cell)];
+    return [this.above.map(grade.runHere), this.above.map(grade.book), grade.book(this.cell)];
   }
 
   /* Say what it runs, and where its sliders stand. */
@@ -99,7 +98,7 @@ class Follower {
   show({ parts, texts, error }, place, draw) {
     const { demo, laws } = this;
     if (error) return this.fail(`${laws.length ? `Your \`${laws.join(", ")}\`` : "Python"} stops: ${error}.`, place, draw);
-    draw(parts, { clean, settle });
+    draw(parts, { clean, cleanMessages });
     for (const one of followers) one.free(); // Python is there
     for (const [name, text] of Object.entries(texts)) {
       const input = demo.querySelector(`#${CSS.escape(`${demo.id}-${name}`)}`);
@@ -190,15 +189,15 @@ class Follower {
 }
 
 /* An arm whose physics runs in the page (page/arm): it plans by the weights of the reader's law. */
-const lead = (box) => {
+const addLaw = (box) => {
   const { law } = box.dataset, above = codeOf(box.closest(".cell")), form = box.querySelector("form");
   figures.push([box.closest(".cell"), above, law]);
-  const [status, back] = line(form, BACK);
+  const [status, back] = addLine(form, BACK);
   const say = (text) => (status.innerHTML = grade.inline(text));
   let mine = false;
   watch(above, back, async () => {
     try {
-      const question = ["grader", "changed_names", above.map(lastRun), above.map(grade.book), law];
+      const question = ["grader", "changed_names", above.map(grade.runHere), above.map(grade.book), law];
       const laws = ownCells(above).length ? await python.ask(question, () => {}) : [];
       mine = laws.length > 0 && ownCells(above).length > 0; // the reader may have gone back meanwhile
       say(mine ? `This arm plans by **your** ${inCode([law])}: let it reach.` : "");
@@ -211,7 +210,7 @@ const lead = (box) => {
   });
   box.vmcLaw = async ({ target, points }) => {
     if (!mine) return null;
-    const question = ["grader", "call", above.map(lastRun), law, [target, points]];
+    const question = ["grader", "call", above.map(grade.runHere), law, [target, points]];
     const { answer, error } = await python.ask(question, () => {}).catch(({ message }) => ({ error: message }));
     if (answer?.length === points.length && answer.every(Number.isFinite)) return answer;
     say(`Your \`${law}\` ${error ? `stops: ${error}` : `gives no ${points.length} weights`}. This is the book’s.`);
@@ -239,7 +238,7 @@ let followers = [];
 addEventListener("DOMContentLoaded", () => {
   const demos = [...document.querySelectorAll(".tag_draws-in-page .vmc-demo:has(> script)")];
   followers = demos.map((demo) => new Follower(demo));
-  document.querySelectorAll(".vmc-live[data-law]").forEach(lead);
+  document.querySelectorAll(".vmc-live[data-law]").forEach(addLaw);
   bring();
 });
 addEventListener("hashchange", bring);

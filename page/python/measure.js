@@ -6,7 +6,7 @@ import * as python from "./interpreter.js";
 
 const DRAWS = 6; // as many as most numbers of the ledger have
 
-const follow = (form) => {
+const addMeasure = (form) => {
   const { where, shipped } = form.dataset, ours = JSON.parse(shipped);
   form.innerHTML = `<label>Measure it again, here, from seed <input type="number" name="seed" value="100" min="0" max="999999" required></label>
     <button>Measure</button> <button type="button" name="stop" disabled>Stop</button> <span role="status"></span>
@@ -44,4 +44,4 @@ const follow = (form) => {
   form.hidden = false;
 };
 
-addEventListener("DOMContentLoaded", () => document.querySelectorAll(".vmc-measure").forEach(follow));
+addEventListener("DOMContentLoaded", () => document.querySelectorAll(".vmc-measure").forEach(addMeasure));

@@ -72,7 +72,7 @@ def files_that_draw():
     """What draws a demo: {name: bytes}."""
     wheels = (path.name for path in sorted(VENDOR.glob("*.whl")) if "numpy" not in path.name)
     return {
-        "plots.zip": pack_zip(dict(one for name in wheels for one in _compiled(name))),
+        "plots.zip": pack_zip(dict(one for name in wheels for one in _needed_members(name))),
         "figures.zip": pack_zip(_read(drawn_paths())),
     }
 
@@ -85,8 +85,8 @@ def files_that_run():
     return {
         **{name: (VENDOR / name).read_bytes() for name in UNCHANGED},
         "pyodide-lock.json": json.dumps(lock).encode(),
-        "python_stdlib.zip": pack_zip(dict(_compiled("python_stdlib.zip"))),
-        numpy["file_name"]: pack_zip(dict(_compiled(numpy["file_name"]))),
+        "python_stdlib.zip": pack_zip(dict(_needed_members("python_stdlib.zip"))),
+        numpy["file_name"]: pack_zip(dict(_needed_members(numpy["file_name"]))),
         "library.zip": pack_zip(_read(paths())),
     }
 
@@ -116,7 +116,7 @@ def _read(paths):
     return {path.as_posix(): (ROOT / path).read_bytes() for path in paths}
 
 
-def _compiled(archive):
+def _needed_members(archive):
     """What is needed of a vendored archive, (name, bytes), compiled where `compile.js` did that."""
     done = dict(_members("compiled.zip")) | dict(_members("compiled-plots.zip"))
     for name, data in _members(archive):

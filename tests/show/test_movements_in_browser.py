@@ -128,7 +128,7 @@ def test_a_muscle_is_named_under_the_pointer_and_chosen_by_its_name(moving):
       const view = vmc["demo/scene"].viewOf(div);
       const { top, left, width, height } = div.getBoundingClientRect();
       for (let x = -1; x < 1; x += 0.02) for (let y = -1; y < 1; y += 0.02) {
-        const k = view.body.muscles.found([x, y]);
+        const k = view.body.muscles.muscleAt([x, y]);
         if (k !== null) return [left + (x + 1) / 2 * width, top + (1 - y) / 2 * height,
                                 view.anatomy.muscles[k].name];
       } }"""
@@ -194,7 +194,7 @@ def test_a_picture_that_the_browser_takes_away_comes_back(moving):
       .getExtension("WEBGL_lose_context")"""
     for back in (
         "(_, context) => context.restoreContext()",  # by itself, when the browser gives it back
-        "(div) => vmc['demo/scene'].viewOf(div).awake()",  # when the reader has scrolled away
+        "(div) => vmc['demo/scene'].viewOf(div).wake()",  # when the reader has scrolled away
     ):
         context = moving.query_selector(".vmc-scene").evaluate_handle(get)
         context.evaluate("context => context.loseContext()")

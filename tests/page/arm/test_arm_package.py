@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kit import arm
-from page.arm.live import given
+from page.arm.live import page_constants
 from tests.pages import observe
 from tests.project import run
 from vmc_lib.arm.simulate import simulate
@@ -65,7 +65,7 @@ def test_npm_packs_it_and_node_runs_it(package, tmp_path):
     errors, posture = json.loads(run(node, "use.js", cwd=tmp_path))
     assert errors[-1] < errors[0]
     wild = np.tile([0.5, 0, 0, 0.2, 0, 0], (1, 200, 1))
-    motion = simulate(wild, templates.START, given()["rest"], engine="mujoco")
+    motion = simulate(wild, templates.START, page_constants()["rest"], engine="mujoco")
     assert np.abs(motion.q[0, -1] - posture).max() < 1e-6
 
 

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.browser
 PLACE = """(box, [x, y]) => {
   const svg = box.querySelector("svg[data-axes]");
   const { left, top, width, height } = svg.getBoundingClientRect();
-  const [right, down] = vmc["demo/axes"].axesOf(svg).drawn([x, y]);
+  const [right, down] = vmc["demo/axes"].axesOf(svg).shareOf([x, y]);
   return [left + right * width, top + down * height];
 }"""
 

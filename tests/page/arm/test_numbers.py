@@ -59,21 +59,21 @@ def test_muscle_laws(ask, name, law, low, high):
 @pytest.mark.browser
 def test_constants_are_pythons_and_a_replaced_law_is_noticed(ask, monkeypatch):
     script = "return new muscle.Muscle(asked).differs;"
-    assert ask(script, live.given()["muscle"]) is False
+    assert ask(script, live.page_constants()["muscle"]) is False
     monkeypatch.setattr(muscle, "TAU_ACTIVATION", 0.05)
-    assert ask(script, live.given()["muscle"]) is False
+    assert ask(script, live.page_constants()["muscle"]) is False
     for name in ("activation_rate", "force_length", "force_velocity", "passive_force"):
         with monkeypatch.context() as patch:
             law = getattr(muscle, name)
             patch.setattr(muscle, name, lambda *given, law=law: 1.01 * law(*given))
-            assert ask(script, live.given()["muscle"]) is True, name
+            assert ask(script, live.page_constants()["muscle"]) is True, name
 
 
 @pytest.mark.browser
 def test_movements(ask):
     rng = np.random.default_rng(2)
     wild = np.repeat(rng.random((3, 20, 6)), 50, axis=1)  # 1 s, a new command every 50 ms
-    motion = simulate(wild, templates.START, live.given()["rest"], engine="mujoco")
+    motion = simulate(wild, templates.START, live.page_constants()["rest"], engine="mujoco")
     for excitations, q, active in zip(wild, motion.q, motion.activation, strict=True):
         moved = ask("return arm.move(asked);", excitations.tolist())
         assert np.abs([moment["q"] for moment in moved] - q).max() < 1e-9
@@ -216,7 +216,7 @@ def test_templates_on_a_line_and_targets_outside_are_refused(ask):
 
 
 def test_knots_make_the_templates():
-    given = live.given()["templateSet"]
+    given = live.page_constants()["templateSet"]
     knots = np.frombuffer(unpack_bytes(given["knots"]), np.float32)
     knots = knots.reshape(given["shape"]).astype(float)
     assert np.abs(live.spline() @ knots - templates.load().excitations).max() < 1e-12

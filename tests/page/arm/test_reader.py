@@ -33,7 +33,7 @@ def test_mujoco_is_loaded_by_the_start_and_from_the_books_own_files(open_arms, s
 
 ENDED = """async () => {
   const live = new vmc["arm/bench"].Bench(document.querySelector(".vmc-live"));
-  await live.awake();
+  await live.wake();
   const { data, seen, model } = live.arm;
   live.end();
   return [data, seen, model].map((part) => part.isDeleted());
@@ -47,7 +47,7 @@ FAILED = """async () => {
     ({ arm } = live);
     throw new Error("no file");
   };
-  await live.awake();
+  await live.wake();
   return [arm.data, arm.seen, arm.model].map((part) => part.isDeleted());
 }"""
 
@@ -94,7 +94,7 @@ def test_the_bench_answers_the_keyboard(open_arms):
     for _ in range(10):
         keys.press("Enter")
     assert readout(bench, "time") == "0.10 s"
-    rest = [round(u, 2) for u in live.given()["rest"]]
+    rest = [round(u, 2) for u in live.page_constants()["rest"]]
     excitation = np.array(rest)
     excitation[MUSCLES.index("BIClong")] = 1
     moved = simulate(np.tile(excitation, (100, 1)), templates.START, rest, engine="mujoco")

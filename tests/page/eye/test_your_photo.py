@@ -231,7 +231,7 @@ def test_a_guessed_camera_sees_the_place_in_the_box_as_large_as_a_shuttlecock(as
 
 
 GUESSED = """const [box, guess, selector] = asked;
-return eye.guessed(guess, eye.guessCamera(box, guess, [300, 200], 721), selector);"""
+return eye.guessWords(guess, eye.guessCamera(box, guess, [300, 200], 721), selector);"""
 
 
 def test_where_a_usual_lens_would_be_too_near_no_distance_is_stated_by_it(ask):
@@ -278,7 +278,7 @@ def test_a_sheet_laid_upside_down_is_asked_about(page, tmp_path):
 
 WORDS = """const sheet = { fewest: 3 }, { sight, count, camera, seen } = asked;
 const read = { markers: Array(seen), camera };
-return vmc["eye/photo_words"].next(sight, count, read, sheet);"""
+return vmc["eye/photo_words"].nextWords(sight, count, read, sheet);"""
 
 
 def test_the_arm_is_promised_where_it_can_reach(ask):
