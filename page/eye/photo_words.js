@@ -16,6 +16,9 @@ export const capital = (words) => words[0].toUpperCase() + words.slice(1);
 /* What was found. */
 export const foundWords = ({ summary }) => `${capital(summary)}.`;
 
+/* How surely what is in a box that the reader chose is a shuttlecock. */
+export const chanceWords = (chance) => `The box chosen: a shuttlecock, ${chance} sure.`;
+
 /* A sheet that is seen from its far side may lie upside down. */
 const upsideDownDoubt = (camera) => (fromBeyond(camera) ? " Does the sheet’s arrow point away from you?" : "");
 

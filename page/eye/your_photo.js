@@ -29,7 +29,7 @@ export class YourPhoto extends PhotoReach {
     }, { signal: this.life.signal });
     box.addEventListener("click", ({ target }) => {
       const chosen = target.closest("[data-box]");
-      if (chosen) this.choose(+chosen.dataset.box);
+      if (chosen) this.point(+chosen.dataset.box);
     });
   }
 
@@ -186,6 +186,12 @@ export class YourPhoto extends PhotoReach {
     this.tell({ place: `${place}; the trunk turns ${degrees(turn, 0)}` });
   }
 
+  /* The reader points at a box: what is said of it then stands for what was found. */
+  point(number) {
+    if (this.sight.boxes.length) this.tell({ found: words.chanceWords(this.marks[number].words) });
+    this.choose(number);
+  }
+
   /* Reach for what is in a box. */
   async choose(number) {
     this.turn = {};
@@ -201,6 +207,7 @@ export class YourPhoto extends PhotoReach {
     } catch (error) {
       if (!(error instanceof RangeError)) throw error;
       this.rest();
+      this.photo.drawPhoto(); // in it no arm reaches
       this.say(words.outOfReach(this.camera) + this.doubt);
     }
   }

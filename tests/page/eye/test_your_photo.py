@@ -1,6 +1,8 @@
 """The reader's own photo in the page: to a corrected reach, or else in words what is missing."""
 
 import re
+from base64 import b64decode
+from io import BytesIO
 
 import numpy as np
 import pytest
@@ -151,20 +153,32 @@ def test_the_page_may_send_nothing(page):
     page.failed.clear()
 
 
+def has_arm(page):
+    """Whether an arm is drawn into our photo."""
+    photo = page.locator(".vmc-picture canvas").first.evaluate("(it) => it.toDataURL()")
+    image = Image.open(BytesIO(b64decode(photo.partition(",")[2]))).convert("RGB")
+    ours = Image.fromarray(OURS.image).resize(image.size)
+    return difference(np.array(image), np.array(ours)).mean() > 0.03
+
+
 @pytest.mark.audit
 def test_the_reader_points_at_another_box(page):
-    """The arm then reaches for that; what is out of reach is said, with what to do."""
+    """The arm then reaches for that; what is out of reach is said, and no arm is in the photo."""
     page.get_by_role("button", name="Example").click()
     status(page, "Corrected by trial")
-    before = readout(page, "place")
+    before, out = readout(page, "place"), 0
     boxes = page.locator(".vmc-boxes button")
     assert boxes.first.get_attribute("aria-pressed") == "true"
     for n in range(1, boxes.count()):
         clear_status(page)
         boxes.nth(n).press("Enter")
-        said = status(page, "Corrected by trial|Out of reach")
+        said, chance = status(page, "Corrected by trial|Out of reach"), boxes.nth(n).inner_text()
         assert readout(page, "place") != before
         assert ("can be where it is shaded" in said) == said.startswith("Out of reach")
+        assert found(page) == f"The box chosen: a shuttlecock, {chance} sure."
+        assert has_arm(page) == said.startswith("Corrected")
+        out += not has_arm(page)
+    assert out
 
 
 def test_the_example_stands_first_and_alone_is_the_main_red(page):
@@ -196,22 +210,22 @@ def assert_nothing_found(page, said):
 
 
 def test_in_a_photo_without_the_sheet_the_arm_reaches_for_a_guess(page):
-    """What was found is said first, and stays; then that nothing is measured."""
+    """What was found is said first, then that nothing is measured; of a box chosen, its chance."""
     shot = next(shot for shot in photos.load("real", "test") if shot.boxes)
     said = give(page, shot.file)
     assert "from the place guessed" in said
     assert sheets_from_above(page) == 0
     assert "so the place is a guess, the same for every photo without one." in said
     assert "part of a larger photo, from 50 cm away, held at 45°" in said
-    first, choices = found(page), page.locator(".vmc-boxes button")
-    assert re.fullmatch(r"A shuttlecock, \d+ % sure\.", first)
+    choices = page.locator(".vmc-boxes button")
+    assert re.fullmatch(r"A shuttlecock, \d+ % sure\.", found(page))
     assert "0 markers seen, 3 needed" in readout(page, "camera")
     assert page.locator(".vmc-boxes button.vmc-green").count() >= 1
     clear_status(page)
     choices.last.click()
     assert choices.last.get_attribute("aria-pressed") == "true"
     assert "so the place is a guess" in status(page, "Corrected by trial")
-    assert found(page) == first
+    assert found(page) == f"The box chosen: a shuttlecock, {choices.last.inner_text()} sure."
     assert readout(page, "place") == "a guess"
 
 
