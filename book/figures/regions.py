@@ -5,7 +5,7 @@ import numpy as np
 from book.figures.panels import legend_above, panels
 from book.figures.where import in_corner
 from reproduce import paper
-from reproduce.experiments import fresh_test_set, localisation, real_world
+from reproduce.experiments import fresh_test_set, localisation, real_world, region_clusters
 from reproduce.measures.precision_recall import rates
 from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
@@ -22,7 +22,7 @@ PRINTED_NAMES = {  # in the paper's Table I; that its "Gaussian" is the sigmoid 
 FRESH_ROWS = (*fresh_test_set.KERNELS, *fresh_test_set.DETECTORS)
 PLANE = (-4, 5)  # of an SVM's two clouds: what is drawn of both axes
 YOURS = (3.3, -1.3)  # the example that the reader moves
-OBJECTS = 80  # in 40 photos
+FRESH_PHOTOS = dict.fromkeys(fresh_test_set.KERNELS, 100)  # of a level; of detectors 200
 QUALITIES = ("a good candidate", "a box on the shuttlecock", "a good box")
 
 
@@ -174,15 +174,29 @@ def recipe_plot(best, overlap):
 
 
 def fresh_plot(level, measure):
-    """Shares on the fresh test set, and what forty photos would know of them: a dot plot."""
-    counts, part = fresh_test_set.load_results(), MEASURES.index(measure)
-    rows = {row: fresh_test_set.wilson_rates(*counts[row][level])[part] for row in FRESH_ROWS}
-    if level == "rig":
-        mean = np.mean([counts["IoU", k][level] for k in range(localisation.TRAININGS)], axis=0)
-        rows["published"] = fresh_test_set.wilson_rates(*mean)[part]
-    few = {row: (share, *wilson(OBJECTS * share, OBJECTS)) for row, (share, *_) in rows.items()}
-    series = {"fresh photos": rows, "40 photos": few}
+    """Shares on the fresh test set, and what forty photos would know of them: a dot plot.
+
+    Regions on one object say less than their number, by their design effect.
+    """
+    part, effects = MEASURES.index(measure), region_clusters.load_results()[level]["context"]
+    series = {"fresh photos": {}, "40 photos": {}}
+    for row, (right, wrong, missed) in _fresh_counts(level).items():
+        n, effect = (right + wrong, right + missed)[part], effects.get(row, (1, 1))[part]
+        fresh = FRESH_PHOTOS.get(row, 200)
+        for name, shots in zip(series, (fresh, 40), strict=True):
+            worth = shots / fresh / effect
+            series[name][row] = right / n, *wilson(worth * right, worth * n)
     return dot_plot(series, f"{measure}, {level}", None, (0, 1.02))
+
+
+def _fresh_counts(level):
+    """Row -> how many are right, wrong and missed on the fresh test set."""
+    counts = fresh_test_set.load_results()
+    found = {row: counts[row][level] for row in FRESH_ROWS}
+    if level == "rig":
+        seeds = range(localisation.TRAININGS)
+        found["published"] = np.mean([counts["IoU", k][level] for k in seeds], axis=0)
+    return found
 
 
 def retrained_table(levels):

@@ -3,7 +3,7 @@
 A photo has several good regions on one object, and a classifier is often right, or wrong, about
 all of them. So a share of regions is less sure than if each had its own photo, by the design effect
 (its variance over photos, over that of independent regions). The fresh photos' answers are kept as
-counts; the effect is measured on the rig's test photos that ship, photo by photo.
+counts; the effect is measured on the test photos that ship, photo by photo.
 """
 
 from functools import partial
@@ -16,7 +16,12 @@ from reproduce.training.detectors import labelled_candidates
 from vmc_lib import photos
 from vmc_lib.where.recipes import RECIPES
 
-KERNELS = {"published": TABLE_1_KERNELS, "context": ("linear",)}  # by recipe
+CONTEXT = {"context": ("linear", "rbf")}
+KERNELS = {  # by level, and by recipe
+    "rig": {"published": TABLE_1_KERNELS} | CONTEXT,
+    "free": CONTEXT,
+    "varied": CONTEXT,
+}
 
 
 def design_effect(right, total):
@@ -32,11 +37,11 @@ def design_effect(right, total):
     return max(1.0, float(variance * total.sum() / (share * (1 - share))))
 
 
-def effects(recipe_name, kernel_names, folder=photos.FOLDER):
-    """Kernel -> the design effects of precision and of recall, with a recipe."""
-    shots, found = photos.load("rig", "test", folder), {}
+def effects(level, recipe_name, kernel_names, folder=photos.FOLDER):
+    """Kernel -> the design effects of precision and of recall, on a level, with a recipe."""
+    shots, found = photos.load(level, "test", folder), {}
     by_photo = [labelled_candidates([shot], RECIPES[recipe_name]) for shot in shots]
-    trained = train_classifiers("rig", recipe_name, kernel_names, 0, folder)
+    trained = train_classifiers(level, recipe_name, kernel_names, 0, folder)
     for kernel, (svm, threshold) in zip(kernel_names, trained, strict=True):
         answers = [(svm.score(x) > threshold, truth) for x, truth in by_photo]
         right = [(called & truth).sum() for called, truth in answers]
@@ -46,8 +51,11 @@ def effects(recipe_name, kernel_names, folder=photos.FOLDER):
 
 
 def make(folder=photos.FOLDER, kernels=KERNELS):
-    """What `results/region_clusters.json` holds: recipe -> `effects`."""
-    return {name: effects(name, some, folder) for name, some in kernels.items()}
+    """What `results/region_clusters.json` holds: level -> recipe -> `effects`."""
+    return {
+        level: {name: effects(level, name, some, folder) for name, some in recipes.items()}
+        for level, recipes in kernels.items()
+    }
 
 
 load_results = partial(records, "region_clusters")

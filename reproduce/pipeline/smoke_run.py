@@ -100,7 +100,7 @@ def toy_steps(folder):
         toy("second_layers", few, [0], patches=50, every=1),
         toy("other_filters", few, count=200, every=1, seeds=[0]),
         toy("random_filters", named, [0]),
-        toy("region_clusters", few, {"published": ["linear"]}),
+        toy("region_clusters", few, {"rig": {"published": ["linear"]}}),
         toy("class_independence", few, {"rig": ["single"]}),
         toy("variations", [(6, 0)], named, PATCHES),
         toy("tricks", few, epochs=1, patches=50),

@@ -166,7 +166,7 @@ STEPS = (
         region_clusters.make,
         RESULTS / "region_clusters.json",
         "photos candidates localisation",
-        1,
+        3,
     ),
     Step(class_independence.make, RESULTS / "class_independence.npz", "photos", 3),
     Step(cdbn_sensitivity.make, RESULTS / "variations.npz", "photos", 15),
@@ -184,6 +184,13 @@ STEPS = (
         15,
     ),
     Step(learning_under_noise.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
+    Step(habits.make, RESULTS / "whole_arm_habits.npz", WHOLE_ARM),
+    Step(
+        learning_curves.make,
+        RESULTS / "learning_curves.json",
+        f"templates unsteady whole_arm_habits {ARM} {WHOLE_ARM}",
+        15,
+    ),
     Step(sensitivity.make, RESULTS / "sensitivity.json", f"templates {ARM}", 8),
     Step(muscle_weakness.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
     Step(rival_controllers.make, RESULTS / "rivals.json", f"templates optimal {ARM}", 6),
@@ -230,19 +237,12 @@ STEPS = (
         RESULTS / "ledger.json",
         "localisation recognition fresh_names fresh_test_set variations hmax_draws second_layers "
         "other_filters random_filters region_clusters "
-        "class_independence movements nulls unsteady sensitivity optimal "
+        "class_independence movements nulls unsteady learning_curves sensitivity optimal "
         "reproduce/results/opensim.npz "
         f"reproduce/results/bench {SHIPPED}",
         8,
     ),
-    Step(habits.make, RESULTS / "whole_arm_habits.npz", WHOLE_ARM),
     Step(experiment.make, RESULTS / "whole_arm.json", f"whole_arm_habits {WHOLE_ARM}", 8),
-    Step(
-        learning_curves.make,
-        RESULTS / "learning_curves.json",
-        f"templates unsteady whole_arm_habits {ARM} {WHOLE_ARM}",
-        15,
-    ),
     Step(f"{PYTHON} reproduce.whole_arm.derive", plant.FILE, needs="myo-sim"),
     Step(f"{PYTHON} reproduce.whole_arm.bones", bones63.FILE, needs="myo-sim"),
     Step(

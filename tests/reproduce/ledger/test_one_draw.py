@@ -72,8 +72,10 @@ def test_one_draw_of_other_filters_is_reproducible():
 
 
 def test_design_effects_are_reproducible():
-    now = region_clusters.effects("context", ("linear",))["linear"]
-    assert now == pytest.approx(region_clusters.load_results()["context"]["linear"], rel=0.05)
+    now = region_clusters.effects("rig", "context", ("linear",))["linear"]
+    assert now == pytest.approx(
+        region_clusters.load_results()["rig"]["context"]["linear"], rel=0.05
+    )
 
 
 def test_design_effect_by_hand():

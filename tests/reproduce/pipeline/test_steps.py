@@ -8,8 +8,8 @@ import pytest
 from reproduce import __main__, results
 from reproduce.experiments.localisation import TABLE_1_KERNELS
 from reproduce.ledger.entry import VERDICTS
-from reproduce.pipeline import progress, smoke_run
-from reproduce.pipeline.steps import ROOT, STEPS, Step, tasks
+from reproduce.pipeline import progress, smoke_run, stored
+from reproduce.pipeline.steps import RESULTS, ROOT, STEPS, Step, tasks
 from vmc_lib import data, photos
 from vmc_lib.what.recogniser import READ_OUTS
 
@@ -92,6 +92,16 @@ def test_steps_have_no_circular_inputs():
                 assert order.index(name) < order.index(step.name)
             else:
                 assert (ROOT / name).exists(), name
+
+
+def test_the_ledger_reads_all_that_its_rows_rest_on():
+    read = {file.relative_to(RESULTS).with_suffix("").as_posix() for file in ledger_results()}
+    assert stored.RESTS_ON.keys() <= read
+
+
+def ledger_results():
+    """The stored results on which the ledger's step depends."""
+    return [file for file in BY_NAME["ledger"].inputs() if file.is_relative_to(RESULTS)]
 
 
 def test_a_step_depends_on_all_code_that_it_can_run():
