@@ -24,7 +24,7 @@ def template_rows(targets, points, number):
 def planned_error_ratio(seed, past=None, rule=habitual_weights, number=4, count=COUNT):
     """The mean miss over the mean reach; of templates `past` the plan mixes a `number`.
 
-    Which, `template_rows` says; the paper's reading by default.
+    Which, `template_rows` says; our reading of the paper by default.
     """
     past = past or templates.load(hold=0.0)
     targets = draw_targets(past, count, np.random.default_rng(seed))

@@ -183,7 +183,7 @@ def _ratios(errors):
     }
 
 
-AS_PRINTED = "the hand where the command ends"  # the paper's reading of where a movement ends
+AS_PRINTED = "the hand where the command ends"  # our reading of the paper: where a movement ends
 TABLES = {
     **{s: partial(error_ratios, scenario=s) for s in SCENARIOS},
     **{f"{s}, {AS_PRINTED}": partial(error_ratios, scenario=s, hold=0.0) for s in SCENARIOS},

@@ -39,7 +39,7 @@ from vmc_lib.motor.planning import (
     plan,
 )
 
-TRIES = 21  # of the paper's off-line calibration
+TRIES = 21  # of off-line calibration: n = 0, 1, …, 20, as we read it (the paper prints no M)
 COARSE_TO_FINE = (10, 0, 20, 5, 15, 2, 8, 12, 18, *(1, 3, 4, 6, 7, 9, 11, 13, 14, 16, 17, 19))
 AS_ALGORITHM_1 = (*range(1, 21), 0)  # the n in the order in which it counts them
 LENGTH = 0.1  # of a blind change of the weights: good, not best, on other targets (seeds 100–109)

@@ -119,10 +119,11 @@ ROWS = (
     ),
     Row(
         "IV C, computation",
-        "Habit spares the computation of an optimal movement.",
+        "Habit saves computation, as it avoids inverse kinematics.",
         "09_planning",
         _computation,
-        note="The movements tried are those for one target, "
+        note="The paper's Introduction says inverse dynamics. It times nothing; the comparison "
+        "with an optimiser is ours. The movements tried are those for one target, "
         "{:.0f} cm forward and {:.0f} cm down; ".format(*100 * np.abs(ONE_TARGET))
         + "chapter 9 searches for another, and counts others.",
     ),

@@ -14,10 +14,12 @@ from reproduce.ledger.entry import (
     Row,
     mean,
     trivial_quantity,
+    wider_of,
 )
 from reproduce.measures import edges, gabor, texture_tuning
 from reproduce.measures.texture_tuning import shuffle
 from vmc_lib import photos
+from vmc_lib.statistics import t_interval
 from vmc_lib.what import cdbn
 from vmc_lib.what.crops import whiten
 
@@ -52,10 +54,9 @@ def _figure_7():
         "selectivity for direction, less that of its pixels shuffled",
         "share of strength in the middle quarter",
     )
-    fitted = {"unit": f"filters of {len(layers)} trainings", "fitted": True} | ABOVE
     return [
         *(
-            mean(name, limit, values, nulls=first_layer_nulls(k), **fitted)
+            _by_filter(name, limit, values, len(layers), first_layer_nulls(k))
             for k, (name, limit, values) in enumerate(
                 zip(names, (0, 0, 0.25), by_filter, strict=True)
             )
@@ -78,6 +79,16 @@ def _figure_7():
             network.projected_filters().shape[-1],
         ),
     ]
+
+
+def _by_filter(name, limit, values, trainings, nulls):
+    """A mean over filters (n,), whose interval is the wider of two: over them, over trainings."""
+    unit, middle = f"filters of {trainings} trainings", values.reshape(trainings, -1).mean(axis=1)
+    q = mean(name, limit, values, unit, nulls=nulls, fitted=True, **ABOVE)
+    if trainings < 2:
+        return q
+    centre, half = t_interval(middle)
+    return wider_of(q, (centre - half, centre + half))
 
 
 def first_layer_nulls(k):

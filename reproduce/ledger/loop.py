@@ -100,7 +100,8 @@ ROWS = (
         "The dorsal stream is faster than the ventral one, and responds in real time.",
         "performance",
         _speed,
-        differs="Our model is serial: a region must be found before it can be named, and finding "
+        differs="(“Faster” is said in III, Block 1-1.) Our model is serial: a region must be found "
+        "before it can be named, and finding "
         "takes {q[time for where over time for what].obtained:.1f} times as long as naming. In the "
         "brain the two pathways work side by side. For “real time” the paper gives no limit: from "
         "a photo to the first excitation ours takes "

@@ -12,11 +12,10 @@ import numpy as np
 from reproduce import paper
 from reproduce.experiments import nulls, sensitivity
 from reproduce.experiments.calibration import SCENARIOS, load_results, ratio_name
+from reproduce.experiments.nulls import HELD_OUT, IN_SAMPLE
 from reproduce.ledger.calibration import (
     EXAMPLES,
     FIXED,
-    HELD_OUT,
-    IN_SAMPLE,
     OVER_THE_HOLD,
     WAVERS,
     count_nearer,

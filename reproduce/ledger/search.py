@@ -103,12 +103,16 @@ def _search():
 
 
 def _seconds(image, everywhere, part=5000):
-    """CPU time to search an image and describe what is found, over that for windows everywhere."""
+    """CPU time to search an image and describe what is found, over that for windows everywhere.
+
+    Of those, about a `part` is described.
+    """
     start = process_time()
     raw_pixels(image, propose(image, PUBLISHED.strategy))
     searched = process_time()
-    raw_pixels(image, everywhere[:: len(everywhere) // part])
-    described = (process_time() - searched) * len(everywhere) / part
+    some = everywhere[:: len(everywhere) // part]
+    raw_pixels(image, some)
+    described = (process_time() - searched) * len(everywhere) / len(some)
     return (searched - start) / described
 
 
@@ -135,7 +139,8 @@ ROWS = (
         _figure_6,
         note="The paper prints no settings of its search. Ours are what its words ask for, two "
         "colour spaces and two sets of similarities; the scale of the segmentation was *fitted*: "
-        "chosen on training photos so that they have so many boxes.",
+        "chosen on training photos so that they have so many boxes. Of 80 photos the paper says "
+        "130 “in average” and 10,560 in all, which is 132.",
     ),
     Row(
         "IV A, RoIs",

@@ -23,7 +23,10 @@ FEATURES: dict[str, Callable[..., np.ndarray]] = {
 
 @dataclass(frozen=True)
 class Recipe:
-    """Settings of an object detector; the defaults are the paper's."""
+    """Settings of an object detector; the defaults are our reading of the paper.
+
+    It prints no strategy and no C, nor that crops shrink to 16 × 16 pixels: these are ours.
+    """
 
     strategy: str = "diverse"  # of selective search
     features: str = "pixels"  # one of FEATURES

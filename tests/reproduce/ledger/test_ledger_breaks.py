@@ -23,6 +23,7 @@ CACHES = (
     planning.draws,
     planning.errors_3d,
     calibration.left_from_origins,
+    calibration.robot_errors,
     filters.gabor_correlations,
     filters.layer_maps,
     loop.level_scores,
