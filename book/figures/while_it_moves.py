@@ -166,10 +166,3 @@ def field_table(draws, blocks):
     }
     rows = {name: [draws[part][:, n]] for name, (part, n) in rows.items()}
     return table(["reaches", "deviation (mm), 95 % interval"], rows)
-
-
-def crossover(gains):
-    """Where a loop's gain falls to one (Hz), and there the lead of its damping and its lag (°)."""
-    w = np.linspace(1, 30, 2901)
-    w = w[np.argmax(gains.gain * np.hypot(1, gains.damping * w) < w**2)]
-    return w / (2 * np.pi), *np.degrees([np.arctan(gains.damping * w), w * gains.delay])

@@ -60,7 +60,7 @@ MUST_KNOW = {
     "habit, Algorithm 1": "templates; 21 tries at the target, and where they end",
     "habit, ours": "templates; 8 tries at the target, and their holds",
     LATE: "templates, the way, inverse dynamics; the eye's reports",
-    FORESEEN: "the same, and the arm's equations, and every activation",
+    FORESEEN: "the same, and the arm's equations",
     LQG: "the arm's equations, the sizes of all noises, a price; the eye's reports",
     AT_PRICE: "the same, and another price",
 }

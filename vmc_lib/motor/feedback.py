@@ -16,7 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vmc_lib.arm.dynamics import equation_12_torques, paths, terms
-from vmc_lib.arm.engines import NO_DRAG, allocate_trajectory, fibres, step_trajectory
+from vmc_lib.arm.engines import (
+    NO_DRAG,
+    activations,
+    allocate_trajectory,
+    fibres,
+    step_trajectory,
+)
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import noisy
@@ -48,7 +54,8 @@ def predict_state(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Predict the present state from delayed feedback by a forward model.
 
-    It replays the activations (ticks, B, 6) sent since the arm was at q (B, 2) with this velocity.
+    It replays the activations (ticks, B, 6) that follow, by Eq. 9, from the commands sent since the
+    arm was at q (B, 2) with this velocity: an efference copy, without the motor noise.
     """
     for activation in activations:
         velocity = velocity + TICK * STEP * model(q, velocity, activation)
@@ -180,13 +187,14 @@ def simulate_feedback(
     lengths, rates = fibres(*paths(target), target_velocity)
     u, path = np.empty(planned.shape), allocate_trajectory(planned, target[:, 0], 0, planned[:, 0])
     q, velocity, activation = path
+    copy = activation.copy() if noise else activation  # of the commands, whose noise nobody knows
     disturbance = Disturbance() if disturbance is None else disturbance
     push = _push_over_time(disturbance, *planned.shape[:2])
     steps = planned.shape[1]
     ticks = range(0, steps, TICK)
     for k, off in zip(ticks, _sight_errors(errors, len(ticks), len(planned)), strict=True):
         seen, tick = max(k - late, 0), np.arange(k, min(k + TICK, steps))
-        sent = np.swapaxes(activation[:, seen:k:TICK], 0, 1)
+        sent = np.swapaxes(copy[:, seen:k:TICK], 0, 1)
         here = q[:, seen] + off[:, :2], velocity[:, seen] + off[:, 2:]
         here = gains.predict(model, *here, sent) if model else here
         wanted = feedback_acceleration(gains, target[:, k], target_velocity[:, k], *here)
@@ -195,6 +203,8 @@ def simulate_feedback(
         reflex = _reflex(gains, q[:, felt], velocity[:, felt], lengths[:, felt], rates[:, felt])
         now = np.clip(np.swapaxes(planned[:, tick] + sight[:, None] + reflex, 0, 1), 0, 1)
         u[:, tick] = np.swapaxes(noisy(now, noise, rng) if rng is not None and noise else now, 0, 1)
+        if noise:
+            copy[:, k : tick[-1] + 2] = activations(np.swapaxes(now, 0, 1), copy[:, k])
         step_trajectory(u, path, tick, push=push, drag=disturbance.drag)
         check_sane(q[:, tick + 1], first=tick[0] + 1)  # or the next tick is of what blew up
     return Motion(*path)
