@@ -4,6 +4,7 @@ from itertools import product
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.transforms import Affine2D
 
 from book.figures.panels import mark_now, panels, shade
 from vmc_lib.arm.model import MUSCLES
@@ -56,7 +57,7 @@ def trust_over_time(believed, eye, off):
     time = np.arange(1, len(believed) + 1) / 100  # s
     left.plot(time, believed, color=COLOURS["purple"])
     left.set(xlabel="time (s)", ylabel="share believed", ylim=(0, 1))
-    left.set_title(f"in the end {believed[-1]:.0%}")
+    left.set_title(f"in the end {believed[-1]:.1%}")
     for (name, error), hue in zip(off.items(), ("grey", "blue"), strict=True):
         right.plot(time, error, color=COLOURS[hue], label=name)
     right.axhline(eye, color=COLOURS["grey"], ls="--", label=f"the eye alone: {eye:g} mm")
@@ -72,8 +73,9 @@ def learning_curves(ratios, learners, counts):
     """
     fig, ax = panels(size=(4.3, 3.4))
     for k, name in enumerate(learners):
-        beside = np.array(counts) * 1.04 ** (k - 1)
-        ax.errorbar(beside, *t_interval(ratios[f"{name}, held-out"]), fmt="o-", ms=4, label=name)
+        beside = {"transform": Affine2D().scale(1.04 ** (k - 1), 1) + ax.transData}
+        left = t_interval(ratios[f"{name}, held-out"])
+        ax.errorbar(counts, *left, fmt="o-", ms=4, label=name, **beside)
     floor = ratios["nothing but noise"].mean()
     ax.axhline(floor, color=COLOURS["grey"], ls=":", label="the noise alone")
     ax.set(xlabel="movements", ylabel="left of habit's miss")
@@ -100,10 +102,11 @@ def scatter_and_miss(uncorrected, paid, weak_miss, corrected, corrected_weak_mis
     left.set(xlabel="time (s)", ylabel="scatter (mm)", ylim=(0, 4.4))
     left.set_title(f"in the hold {corrected[100:].mean():.1f} mm")
     left.legend(ncols=2, loc="upper left")
-    right.plot(weak_miss, MUSCLES, "o", color=COLOURS["orange"])
-    right.plot(corrected_weak_miss, MUSCLES, "o", color=COLOURS["blue"])
+    right.plot(weak_miss, MUSCLES, "o", color=COLOURS["orange"], label="the command alone")
+    right.plot(corrected_weak_miss, MUSCLES, "o", color=COLOURS["blue"], label="corrected")
     right.set(xlabel="miss when this one is weak (mm)", xlim=(-1, None))
     right.invert_yaxis()
+    right.legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1), borderaxespad=0.2)
     return fig
 
 
@@ -169,6 +172,7 @@ def ends_and_distances(paths, target):
             distance[:, 50::2].mean(axis=0),
             color=COLOURS[hue],
             label=f"{name}: {mean:.1f} mm",
+            gid=name,
         )
     left.plot(0, 0, "o", ms=16, mfc="none", mew=2, color=COLOURS["green"])
     left.set(xlim=(-20, 20), ylim=(-20, 20), aspect="equal")

@@ -17,11 +17,14 @@ from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS
 
 SIZE, WITHIN = (8.2, 3.3), ((-0.08, 0.3), (-0.53, -0.2))  # inches; m
+FAR = (-0.2, 0.32), WITHIN[1]  # m: as far as a loop swings that is fast and late
 EVERY = 10  # ms
 GUIDE = {"color": COLOURS["grey"], "gid": "guide"}
 
 
-def path_and_distance(templates, path, goal, titles=("", ""), reference=None, top=200):
+def path_and_distance(
+    templates, path, goal, titles=("", ""), reference=None, top=200, within=WITHIN
+):
     """A hand's path (T, 2) and its goal (2,), and over time its distance from there.
 
     Or from the `reference` (T, 2), where the hand should be. A figure and its two plots.
@@ -29,7 +32,7 @@ def path_and_distance(templates, path, goal, titles=("", ""), reference=None, to
     fig, left, right = panels(2, SIZE)
     if reference is not None:
         left.plot(*reference[::EVERY].T, ":", lw=1.5, **GUIDE)
-    plane(left, templates, WITHIN)
+    plane(left, templates, within)
     left.plot(*path[::EVERY].T, color=COLOURS["blue"], gid="path")
     left.plot(*path[::EVERY][-1], "o", ms=5, color=COLOURS["red"], gid="hand")
     left.plot(*goal, "o", ms=9, **RING, gid="target")
@@ -61,7 +64,7 @@ def late_loop(templates, path, goal):
     """A hand's path (T, 2) to its goal (2,): how far off it ends, and how far it swings."""
     off, swing, speed = end_error(path, goal), end_swing(path), end_speed(path)
     titles = f"from 1.5 to 2 s: {off:.0f} mm off", f"swings by {swing:.0f} mm, at {speed:.0f} mm/s"
-    return path_and_distance(templates, path, goal, titles)[0]
+    return path_and_distance(templates, path, goal, titles, top=280, within=FAR)[0]
 
 
 def push(templates, path, goal, reference, at):
@@ -90,7 +93,7 @@ def gain_curves(gains, by_gain, gain):
     k = gains.index(gain)
     for ax, (measured, lines) in zip(axes, by_gain.items(), strict=True):
         for arm, line in lines.items():
-            ax.plot(gains, line, ".-", label=f"{arm}: {number(line[k])}")
+            ax.plot(gains, line, ".-", label=f"{arm}: {number(line[k])}", gid=arm)
         ax.axvline(gain, ymax=0.68, color=COLOURS["red"], lw=1.5, gid="now")  # below the legend
         ax.set(xscale="log", yscale="log", xlabel="gain (1/s²)", ylabel=measured)
         ax.set_xticks(gains, gains)

@@ -95,7 +95,8 @@ def _panel(ax):
 def _series(ax, turned):
     """The `Series` that were plotted against the axes' own measures.
 
-    A line's `gid` names what a legend need not; guide lines have "guide", and are left out.
+    A line's `gid` names what a legend need not, or names with a number that changes; guide lines
+    have "guide", and are left out.
     """
     logarithmic = (ax.yaxis if turned else ax.xaxis).get_scale() == "log"
     for line, owner in _plotted(ax):
@@ -110,7 +111,7 @@ def _series(ax, turned):
             ends = np.array([path.vertices for path in bars.get_paths()])[..., 1 - turned]
         kind, most = _kind(line), DOTS if line.get_linestyle() == "None" else POINTS
         some = _spread(keys[known], most, logarithmic)
-        name = _label(owner) or line.get_gid() or ""
+        name = line.get_gid() or _label(owner)
         yield Series(name, kind, keys[known], values[known], ends[known], some)
     for bars in ax.containers:
         if isinstance(bars, BarContainer):
@@ -125,7 +126,8 @@ def _plotted(ax):
     """The visible lines on an axes' own measures, each with its owner: itself, or error bars."""
     owners = {c.lines[0]: c for c in ax.containers if isinstance(c, ErrorbarContainer)}
     for line in ax.lines:
-        guide = line.get_transform() != ax.transData or line.get_gid() == "guide"
+        guide = not line.get_transform().contains_branch(ax.transData)
+        guide = guide or line.get_gid() == "guide"
         if line.get_visible() and not guide:
             yield line, owners.get(line, line)
 
@@ -142,7 +144,7 @@ def _kind(line):
 def name_curves(figure):
     """Name a figure's curves for `sound.js`: lines of many points that run to the right."""
     for line, owner in (each for ax in figure.axes for each in _plotted(ax)):
-        x, name = _points(line)[0], _label(owner) or line.get_gid() or _kind(line)
+        x, name = _points(line)[0], line.get_gid() or _label(owner) or _kind(line)
         if (
             line.get_linestyle() != "None"
             and len(x) > 2
@@ -152,8 +154,10 @@ def name_curves(figure):
 
 
 def _rounded(values, axis):
-    """Values (n,), 0 where they are too small to be seen on their axis: what rounding leaves."""
+    """Values (n,), 0 where they are too small to be seen on their axis; places in m to 0.1 mm."""
     values = np.asarray(values, float)
+    if axis.get_label_text().endswith("(m)"):
+        values = values.round(4) + 0.0  # no −0
     least = 1e-9 * np.abs(axis.get_view_interval()).max() if axis.get_scale() == "linear" else 0
     return np.where(np.abs(values) < least, 0, values)
 
