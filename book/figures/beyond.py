@@ -139,17 +139,17 @@ def race(target, rivals, reaches):
         miss = 1000 * kept.error.mean(axis=1)[: reaches + 1]
         away = 1000 * (kept.endpoint[len(miss) - 1] - target)
         if len(away) == 1:
-            left.plot([0, away[0, 0]], [0, away[0, 1]], f"C{k}", lw=1)
-        left.plot(*away.T, "o", color=f"C{k}", ms=8 if len(away) == 1 else 3)
+            left.plot([0, away[0, 0]], [0, away[0, 1]], f"C{k}", lw=1, gid="guide")
+        left.plot(*away.T, "o", color=f"C{k}", ms=8 if len(away) == 1 else 3, label=name)
         right.plot(miss, ".-", color=f"C{k}", label=name)
-    left.plot(0, 0, "o", ms=14, mfc="none", mew=2, color=COLOURS["green"])
+    left.plot(0, 0, "o", ms=14, mfc="none", mew=2, color=COLOURS["green"], gid="target")
     left.set(xlim=(-16, 16), ylim=(-16, 16), aspect="equal")
     left.set(xlabel="forward of the target (mm)", ylabel="above it (mm)")
     right.set(xlabel="extra reaches", xlim=(-0.5, 21.5), yscale="log", ylim=(0.1, 20))
     right.set_yticks([10, 3, 1, 0.3, 0.1], ["10", "3", "1", "0.3", "0.1"])
     right.set_title("miss of what is kept (mm)")
     right.minorticks_off()
-    right.legend()
+    right.legend(loc="upper right")
     return fig
 
 

@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from book.figures.panels import curves, mark_now, panels, shade
+from book.figures.panels import curves, legend_above, mark_now, panels, shade
 from book.figures.reaching import corrections, ends, mean_mm, reaches
 from reproduce.experiments.calibration import FIFTH
 from reproduce.experiments.offline_calibration import hold_measures
@@ -51,7 +51,8 @@ def correction(plan, trials, gains, n):
     right.plot(gains, errors, gid="with each n")
     right.axhline(before, color=COLOURS["grey"], ls="--")
     right.plot(n, errors[k], "o", color=COLOURS["red"], gid="this n")
-    right.set(xlabel="n", ylim=(0, None), title=f"error {errors[k]:.1f} mm")
+    right.set(xlabel="n", ylabel="error (mm)", ylim=(0, None))
+    right.set_title(f"error {errors[k]:.1f} mm")
     return fig
 
 
@@ -95,11 +96,12 @@ def after_trial(plan, rules, trial, rule, noisy=()):
     hold, cost = rules[rule][0][trial], rules[rule][1] * trial
     now = mean_mm(hold, plan.target)
     mark_now(right, cost, now)
-    in_plane(left, plan, hold.mean(axis=1), f"extra reaches: {cost}, mean error {now:.2g} mm")
-    right.set(xlabel="extra reaches", xlim=(-1, 21), yscale="log", ylim=(0.4, 20))
+    measure = "mean error" if len(plan.target) > 1 else "error"
+    in_plane(left, plan, hold.mean(axis=1), f"extra reaches: {cost}, {measure} {now:.2g} mm")
+    right.set(xlabel="extra reaches", xlim=(-1, 21), yscale="log", ylim=(0.4, 30))
     right.set_yticks([10, 5, 2, 1, 0.5], ["10", "5", "2", "1", "0.5"])
     right.minorticks_off()
-    right.legend(title="mean error (mm)")
+    right.legend(title=f"{measure} (mm)", loc="upper right")
     return fig
 
 
@@ -143,14 +145,14 @@ def plot_noisy_mean(ax, x, curves):
 
 def after_the_command(away, reach):
     """Those distances by name, of one reach (its number as text) or the mean; the hold in grey."""
-    fig, ax = panels(size=(4.3, 3.2))
+    fig, ax = panels(size=(4.3, 3.8))
     time = 1 + np.arange(next(iter(away.values())).shape[1]) * templates.EVERY / 1000
     shade(ax, 1, 1 + templates.HOLD)
     for name, each in away.items():
         mm = each[int(reach) - 1] if reach.isdigit() else each.mean(axis=0)
         ax.plot(time, mm, label=name)
     ax.set(xlabel="time (s)", ylabel="from the target (mm)", ylim=(0, 30))
-    ax.legend()
+    legend_above(fig, 1.0, columns=1)  # not over the hold
     return fig
 
 
