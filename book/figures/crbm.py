@@ -121,6 +121,12 @@ def dream_beside(patch, dream, limit):
     )
 
 
+def dream_in_words(patch, dream):
+    """The same in words."""
+    alike = "" if is_grey(dream) else f"; correlation {correlation(patch, dream):.2f}"
+    return f"A patch, its dream, and the first less the second{alike}."
+
+
 def modulation(hidden, pooled):
     """F1/F0 of hidden and of pooled units by contrast, and the border of simple and complex."""
     series = {"hidden units": hidden, "pooled units": pooled}
@@ -142,5 +148,13 @@ def gradients(ks, distances, cosines):
 
 def filters(stack):
     """Filters (n, width, width), with their shares of an even tone and in the corners."""
-    words = f"even tone {even_tone(stack):.0%}, corners {corner_share(stack):.0%}"
-    return with_words(tiles(stack, zoom=8), words)
+    return with_words(tiles(stack, zoom=8), _shares(stack))
+
+
+def filters_in_words(stack):
+    """The same in words."""
+    return f"{len(stack)} filters: {_shares(stack)}."
+
+
+def _shares(stack):
+    return f"even tone {even_tone(stack):.0%}, corners {corner_share(stack):.0%}"

@@ -13,6 +13,7 @@ from reproduce.experiments.recognition import PUBLISHED, confusion_counts, rates
 from vmc_lib.boxes import decode_deltas, iou
 from vmc_lib.photos import HEIGHT, WIDTH
 from vmc_lib.show import Estimate, dot_plot, estimate, photo_view, table
+from vmc_lib.show.figures import margins
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.statistics import wilson
 
@@ -128,6 +129,9 @@ def rivals(by_level, level, measure):
 def first_layer(filters, rows):
     """Filters (n, width, width) about as large on the page for any width, and a plot of scores."""
     plot = dot_plot(rows, "named right, held-out", None, (0.9, 1.005))
+    left = plot.subplotpars.left * plot.get_figwidth()
+    plot.set_figheight(2.9)  # as high for one seed as for several
+    margins(plot, left, top=0.34)
     return tiles(filters, zoom=round(56 / filters.shape[-1])), plot
 
 
@@ -180,7 +184,9 @@ def reliability(chances, truth):
     ends = np.array([wilson(truth[here].sum(), here.sum()) for here in groups])
     ax.errorbar(given, share, abs(ends.T - share), fmt="o", color=COLOURS["blue"])
     for here, *point in zip(groups, given, share, strict=True):
-        ax.annotate(f"{here.sum()}", point, (7, -4), textcoords="offset points")
+        side = ("left", 7) if point[1] < point[0] else ("right", -7)  # where no diagonal runs
+        away = {"ha": side[0], "xytext": (side[1], -4), "textcoords": "offset points"}
+        ax.annotate(f"{here.sum()}", point, **away)
     ax.set(xlabel="probability given", ylabel="share that came true")
     ax.set(xlim=(-0.05, 1.12), ylim=(-0.05, 1.08))
     return fig
