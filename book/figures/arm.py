@@ -15,6 +15,7 @@ from vmc_lib.show.palette import COLOURS
 
 JOINTS = {"shoulder": np.arange(-60, 61), "elbow": np.arange(0, 131)}  # degrees
 LEVEL = np.radians([0, 90])  # the upper arm hangs, the forearm is level
+HEAVIEST = 4  # kg: of the loads shown
 
 
 def held_posture(shoulder, elbow):
@@ -60,6 +61,7 @@ def holding_map(muscle_torques, busiest, load):
     """
     fig, left, right = panels(2, size=(8.2, 4.0))
     torque_polygon(left, muscle_torques(LEVEL), holding.required_torques(LEVEL, load))
+    left.update_datalim([holding.required_torques(LEVEL, HEAVIEST)])  # one scale for all loads
     left.set_title(f"forearm level: busiest {busiest(LEVEL, load):.0%}")
     x, y, _ = np.moveaxis(dynamics.hand(holding.POSTURES), -1, 0)
     least, steps = busiest(holding.POSTURES, load), [-1, 0.1, 0.25, 0.5, 1]

@@ -67,7 +67,7 @@ def _bellies():
 def pictures(past, target):
     """Where it is shown: a scene with a target (3,), and two views with where memories end."""
     space = Scene()
-    space.look((0.52, 0.08, 0.78), at=(0.22, -0.07, 0.0))
+    space.look((0.61, 0.06, 0.92), at=(0.26, -0.12, 0.0))
     for k, colour in enumerate(("green", "red", "purple")):  # the target, both reaches' ends
         props.ball(space[f"goal/ball{k}"], target, colour)
         space[f"goal/ball{k}"].set_property("visible", k == 0)  # until a reach ends there
