@@ -39,19 +39,20 @@ def lean(target, neurons, evenly):
 def votes_plot(target=None, neurons=4, evenly=True):
     """A figure of the votes (grey), the reach (green) and the votes' sum (red); or it is empty."""
     fig, ax = plt.subplots(figsize=(4.3, 3.4))
-    ax.set(xlim=(-1.6, 1.6), ylim=(-1.25, 1.25), aspect="equal")
+    ax.set(xlim=(-1.9, 1.9), ylim=(-1.5, 1.5), aspect="equal")
     ax.axis("off")
     if target is not None:
         total = population_vector(target, neurons, evenly)
+        over = total[1] > target[1] + 1e-6  # then its name is the upper one
         arrows(ax, [0, 0], votes(target, preferred_directions(neurons, evenly)), "grey")
         for tip, colour, words, above in (
-            (target, "green", "the reach", 22),
-            (total, "red", "the sum", -30),
+            (target, "green", "the reach", -30 if over else 22),
+            (total, "red", "the sum", 22 if over else -30),
         ):
             arrows(ax, [0, 0], tip, colour)
             look = dict(textcoords="offset points", ha="center", color=COLOURS[colour])
             ax.annotate(words, tip, (0, above), **look)
-        ax.text(-1.3, 1.15, f"{lean(target, neurons, evenly):.0f}° off", ha="center")
+        ax.text(-1.5, 1.35, f"{lean(target, neurons, evenly):.0f}° off", ha="center")
     return fig
 
 

@@ -160,8 +160,9 @@ def _above():
     """From above: the trunk's axis, and, shaded, where the hand can be; the page adds the sheet."""
     fig, ax = plt.subplots(figsize=(2.5, 2.5))
     ax.fill(*shore(TABLE + HIGH), color=COLOURS["green"], alpha=0.15, lw=0)
-    ax.plot(*TRUNK[::-1], "s", color=COLOURS["purple"])
-    ax.annotate("trunk", TRUNK[::-1] - 0.03, ha="right", va="top")
+    ax.plot(*TRUNK[::-1], "s", color=COLOURS["grey"])
+    look = {"ha": "right", "va": "center", "color": COLOURS["grey"]}
+    ax.annotate("trunk", TRUNK[::-1], (-6, 0), textcoords="offset points", **look)
     ax.set(xlim=(-0.35, 0.4), ylim=(-0.25, 0.5), aspect="equal", title="from above")
     ax.set_axis_off()
     return fig

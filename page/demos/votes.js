@@ -10,6 +10,7 @@ export const votes = (_, [x, y, neurons, evenly], [plane]) => {
     return times(dot(prefers, target), prefers);
   });
   const total = times(2 / neurons, cast.reduce(plus));
+  const over = total[1] > y + 1e-6; // then its name is the upper one
   const along = dot(total, target) / (Math.hypot(...total) * Math.hypot(...target));
   const off = `${degrees(Math.acos(Math.min(1, along)), 0)} off`;
   const arrow = (colour, tip, width) => plane.mark("arrow", colour, [[0, 0], tip], width);
@@ -18,8 +19,8 @@ export const votes = (_, [x, y, neurons, evenly], [plane]) => {
   const to = target.map((x) => signed(x, 2)).join(", ");
   return [
     `Votes of ${neurons} neurons for a reach to ${to}; their sum is ${off}.`,
-    cast.map((vote) => arrow("grey", vote, 1)).join("") + named("green", target, "the reach", 22) +
-      named("red", total, "the sum", -30) + plane.mark("words", "ink", [-1.3, 1.15], off, 0),
+    cast.map((vote) => arrow("grey", vote, 1)).join("") + named("green", target, "the reach", over ? -30 : 22) +
+      named("red", total, "the sum", over ? 22 : -30) + plane.mark("words", "ink", [-1.5, 1.35], off, 0),
   ];
 };
 votes.between = true; // at any values
