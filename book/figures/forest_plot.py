@@ -114,8 +114,8 @@ def forest_plot(groups):
             for axis in axes(lines)
             for tick in axis.ticks
         ]
-        html.append(f"<p>{escape(head)}{svg_view((0, 0, WIDTH, 18), ''.join(ticks))}</p>")
-        html += [line.html() for line in lines]
+        html.append(f"<div><p>{escape(head)}{svg_view((0, 0, WIDTH, 18), ''.join(ticks))}</p>")
+        html += [*(line.html() for line in lines), "</div>"]
     return "\n".join([*html, "</div>"])
 
 
