@@ -188,5 +188,5 @@ def reliability(chances, truth):
         away = {"ha": side[0], "xytext": (side[1], -4), "textcoords": "offset points"}
         ax.annotate(f"{here.sum()}", point, **away)
     ax.set(xlabel="probability given", ylabel="share that came true")
-    ax.set(xlim=(-0.05, 1.12), ylim=(-0.05, 1.08))
+    ax.set(xlim=(-0.12, 1.12), ylim=(-0.05, 1.08))
     return fig

@@ -98,10 +98,10 @@ def after_trial(plan, rules, trial, rule, noisy=()):
     mark_now(right, cost, now)
     measure = "mean error" if len(plan.target) > 1 else "error"
     in_plane(left, plan, hold.mean(axis=1), f"extra reaches: {cost}, {measure} {now:.2g} mm")
-    right.set(xlabel="extra reaches", xlim=(-1, 21), yscale="log", ylim=(0.4, 30))
+    right.set(xlabel="extra reaches", xlim=(-1, 21), yscale="log", ylim=(0.3, 30))
     right.set_yticks([10, 5, 2, 1, 0.5], ["10", "5", "2", "1", "0.5"])
     right.minorticks_off()
-    right.legend(title=f"{measure} (mm)", loc="upper right")
+    right.legend(title=f"{measure} (mm)", loc="lower right")
     return fig
 
 

@@ -52,7 +52,7 @@ def votes_plot(target=None, neurons=4, evenly=True):
             arrows(ax, [0, 0], tip, colour)
             look = dict(textcoords="offset points", ha="center", color=COLOURS[colour])
             ax.annotate(words, tip, (0, above), **look)
-        ax.text(-1.5, 1.35, f"{lean(target, neurons, evenly):.0f}° off", ha="center")
+        ax.text(-1.5, 1.25, f"{lean(target, neurons, evenly):.0f}° off", ha="center")
     return fig
 
 

@@ -20,7 +20,7 @@ export const votes = (_, [x, y, neurons, evenly], [plane]) => {
   return [
     `Votes of ${neurons} neurons for a reach to ${to}; their sum is ${off}.`,
     cast.map((vote) => arrow("grey", vote, 1)).join("") + named("green", target, "the reach", over ? -30 : 22) +
-      named("red", total, "the sum", over ? 22 : -30) + plane.mark("words", "ink", [-1.5, 1.35], off, 0),
+      named("red", total, "the sum", over ? 22 : -30) + plane.mark("words", "ink", [-1.5, 1.25], off, 0),
   ];
 };
 votes.between = true; // at any values
