@@ -29,7 +29,7 @@ def miss_histogram(miss):
     ax.set_title(f"median {median:.2g} mm")
     ax.set(xscale="log", xlabel="miss, mean over the hold (mm)")
     ax.set(ylabel="reaches", ylim=(0, 20), yticks=range(0, 21, 5))
-    ax.xaxis.set_major_formatter("{x:g}")
+    ax.set_xticks([0.001, 0.1, 10], ["0.001", "0.1", "10"])
     return fig
 
 
@@ -149,7 +149,7 @@ def race(target, rivals, reaches):
     right.set_yticks([10, 3, 1, 0.3, 0.1], ["10", "3", "1", "0.3", "0.1"])
     right.set_title("miss of what is kept (mm)")
     right.minorticks_off()
-    right.legend(loc="upper right")
+    right.legend(loc="lower right")
     return fig
 
 
