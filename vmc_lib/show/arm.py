@@ -156,7 +156,7 @@ def _turn_for(place):
 def _furniture(table):
     """What arm scenes share: the arm's anatomy, and perhaps a table."""
     scene = Scene()
-    at, far = ((0.13, -0.24, 0), 1.05) if table else ((0.14, -0.24, 0), 1.6)  # what may be in sight
+    at, far = ((0.13, -0.24, 0), 1.05) if table else ((0.14, -0.24, 0), 1.7)  # what may be in sight
     scene.look(np.add(at, far * np.array([0.46, 0.25, 0.78])), at)
     if find_spec("mujoco"):  # not in the page, whose viewer has it from the first scene
         from vmc_lib.show.anatomy import anatomy
