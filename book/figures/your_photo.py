@@ -158,7 +158,7 @@ def _scene():
 
 def _above():
     """From above: the trunk's axis, and, shaded, where the hand can be; the page adds the sheet."""
-    fig, ax = plt.subplots(figsize=(2.5, 2.5))
+    fig, ax = plt.subplots(figsize=(2.1, 2.1))  # inches: it fits beside the arm on a phone
     ax.fill(*shore(TABLE + HIGH), color=COLOURS["green"], alpha=0.15, lw=0)
     ax.plot(*TRUNK[::-1], "s", color=COLOURS["grey"])
     look = {"ha": "right", "va": "center", "color": COLOURS["grey"]}
