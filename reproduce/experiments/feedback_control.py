@@ -38,7 +38,7 @@ from vmc_lib.motor.planning import draw_targets, exact_weights, is_surrounded, p
 from vmc_lib.motor.templates import START, load, reach
 
 JUMP, JUMPS_AT = 0.05, 0.15  # m and s: how far a target jumps, and when
-SCATTER_SHARE = 0.7  # noise at which reaches that the eye guides scatter by `SCATTER_MM`
+SCATTER_SHARE = 0.5  # noise at which reaches that the eye guides scatter by `SCATTER_MM`
 FIELD, BLOCKS = 15.0, (2, 10, 6)  # N for each m/s; blocks of reaches before, in and after the field
 FARTHEST = 0.085  # m: of eight equal reaches from `START` that end above the table
 
@@ -57,7 +57,7 @@ BY_BOTH = {  # gains and dampings of sight
         *product((0.5, 1, 2, 4), (0.25, 1.0, 2.0, 3.0, 4.0, 6.0)),
         *product((0.125, 0.25), (6.0, 12.0, 24.0)),
     ],
-    "forward model": [*product((120, 240, 480), (0.1, 0.15, 0.25, 0.4))],
+    "forward model": [*product((120, 240, 480), (0.05, 0.1, 0.15, 0.25, 0.4))],
 }
 ARMS = {"the plan alone": OPEN_LOOP} | {arm: BY_GAIN[arm][gain] for arm, gain in BEST.items()}
 ARMS["late sight"] = SIGHT._replace(gain=TUNED[0], damping=TUNED[1])

@@ -40,7 +40,10 @@ class ForwardModel:
         self.cells = GranuleCells(width=1.0, cells=300, ridge=1e-3)
 
     def update(self, motion: Motion) -> Self:
-        """Learn from a batch of movements, one sample every `BETWEEN` steps."""
+        """Learn from a batch of movements, one sample every `BETWEEN` steps.
+
+        It is told what the muscles really did, motor noise included: lessons come afterwards.
+        """
         check_kind("motion", motion, Motion, "a batch, as execute(plans).motion")
         if np.ndim(motion.q) != 3:
             raise ValueError(f"{motion} is of one movement: give a batch, q (B, T + 1, 2)")

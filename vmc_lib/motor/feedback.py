@@ -149,7 +149,7 @@ def simulate_feedback(
     disturbance : Disturbance, optional
         What pushes the hand.
     noise : float
-        The share of `muscle.noisy`.
+        The share of `muscle.noisy`. The forward model knows the commands, not their noise.
     rng : numpy.random.Generator, optional
         Draws the noise.
     errors : array
@@ -187,14 +187,14 @@ def simulate_feedback(
     lengths, rates = fibres(*paths(target), target_velocity)
     u, path = np.empty(planned.shape), allocate_trajectory(planned, target[:, 0], 0, planned[:, 0])
     q, velocity, activation = path
-    copy = activation.copy() if noise else activation  # of the commands, whose noise nobody knows
+    commanded = activation.copy() if noise else activation  # efference copy: without the noise
     disturbance = Disturbance() if disturbance is None else disturbance
     push = _push_over_time(disturbance, *planned.shape[:2])
     steps = planned.shape[1]
     ticks = range(0, steps, TICK)
     for k, off in zip(ticks, _sight_errors(errors, len(ticks), len(planned)), strict=True):
         seen, tick = max(k - late, 0), np.arange(k, min(k + TICK, steps))
-        sent = np.swapaxes(copy[:, seen:k:TICK], 0, 1)
+        sent = np.swapaxes(commanded[:, seen:k:TICK], 0, 1)
         here = q[:, seen] + off[:, :2], velocity[:, seen] + off[:, 2:]
         here = gains.predict(model, *here, sent) if model else here
         wanted = feedback_acceleration(gains, target[:, k], target_velocity[:, k], *here)
@@ -204,7 +204,8 @@ def simulate_feedback(
         now = np.clip(np.swapaxes(planned[:, tick] + sight[:, None] + reflex, 0, 1), 0, 1)
         u[:, tick] = np.swapaxes(noisy(now, noise, rng) if rng is not None and noise else now, 0, 1)
         if noise:
-            copy[:, k : tick[-1] + 2] = activations(np.swapaxes(now, 0, 1), copy[:, k])
+            after = slice(k, tick[-1] + 2)
+            commanded[:, after] = activations(np.swapaxes(now, 0, 1), commanded[:, k])
         step_trajectory(u, path, tick, push=push, drag=disturbance.drag)
         check_sane(q[:, tick + 1], first=tick[0] + 1)  # or the next tick is of what blew up
     return Motion(*path)
