@@ -197,7 +197,8 @@ def _words_of(blocks, place):
 def _pairs(blocks):
     """Each demo, after the prediction that it answers if it has one, as (place, slides).
 
-    The prediction stands above its demo, or below it where the demo opens the chapter.
+    The prediction stands above its demo, or below it where the demo opens the chapter, whose first
+    part has no other.
     """
     box = under = None
     for place, (heading, part) in enumerate(blocks):
@@ -206,8 +207,9 @@ def _pairs(blocks):
             box = part
         elif _has_class(part, "vmc-demo"):
             if heading.name == "h1":
-                below = (p for h, p in blocks[place:] if h is heading)
-                box = box or next((p for p in below if p.select_one(".vmc-predict")), None)
+                below = [p for h, p in blocks[place + 1 :] if h is heading]
+                if not any(_is(p, "vmc-demo") for p in below):
+                    box = box or next((p for p in below if p.select_one(".vmc-predict")), None)
             for folded in part.select(".vmc-live-form .vmc-more"):
                 folded["open"] = ""  # a class calls out what each of its sliders should be
             name = _plain_heading(heading)

@@ -84,8 +84,10 @@ def read(page):
         if number and any(mark in found[0] for mark in STARTS):
             begin, heading = [one for one in headings if one[0] < found.start()][-1]
             asked = QUESTION.findall(page, max(begin, before), found.start())
-            if begin == headings[0][0]:  # the demo that opens a chapter has its question below
-                asked += QUESTION.findall(page, found.end(), headings[1][0])[:1]
+            after = found.end(), headings[1][0]  # of a chapter's first part
+            # The demo that opens a chapter has its question below, if no other demo has it
+            if begin == headings[0][0] and not FIGURE.search(page, *after):
+                asked += QUESTION.findall(page, *after)[:1]
             name = f"figure-{number[1].replace('.', '-')}"
             demos[name] = heading, "".join(asked[-1:]) + found[0]
         before = found.end()

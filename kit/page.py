@@ -1,5 +1,6 @@
 """A page of the kit: Markdown as HTML, sealed."""
 
+import re
 import shutil
 from html import escape
 from pathlib import Path
@@ -10,12 +11,14 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 from book._ext.packed import light_script
 from book._ext.policy import seal
 
+TABLE = re.compile(r"<table\b.*?</table>", re.S)  # may scroll, so the keyboard must reach it
 VENDOR = Path(__file__).parents[1] / "book/_static/vendor"
 HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
 <meta name="viewport" content="width=device-width">
 <style>:root {{ color-scheme: light dark; }}
 body {{ max-width: 45rem; margin: 2rem auto; padding: 0 1rem; font-family: sans-serif;
-line-height: 1.5; }} pre {{ overflow: auto; }}
+line-height: 1.5; }} :is(pre, .math, .wide) {{ overflow: auto; }}
+code {{ overflow-wrap: break-word; }}
 table {{ border-collapse: collapse; }}
 :is(th, td) {{ padding: .2em .6em; text-align: left; border-bottom: 1px solid #8888; }}
 .whole, tr {{ break-inside: avoid; }}
@@ -37,7 +40,8 @@ def html(text):
         left, right = ("[", "]") if options["display_mode"] else ("(", ")")
         return f"\\{left}{escape(tex)}\\{right}"
 
-    return MarkdownIt().enable("table").use(dollarmath_plugin, renderer=maths).render(text)
+    page = MarkdownIt().enable("table").use(dollarmath_plugin, renderer=maths).render(text)
+    return TABLE.sub(r'<div class="wide" tabindex="0">\g<0></div>', page)
 
 
 def write_assets(folder):

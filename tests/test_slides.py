@@ -92,6 +92,13 @@ def test_what_a_slide_of_a_section_holds(opening, heading, text, middle):
     ]
 
 
+def test_a_question_between_two_demos_is_asked_before_the_lower_one():
+    opening = SECTION.format(DEMO.replace("Blue", "Red") + ASKED + DEMO, "Pull", "")
+    chapter = chapter_slides(BeautifulSoup(opening, "html.parser").section)
+    [[_, [_, asked]]], [[_, [other]]] = chapter.asked, chapter.others
+    assert ("Blue." in str(asked), "Red." in str(other)) == (True, True)
+
+
 def test_nothing_is_shown_that_stands_under_another_heading():
     article = BeautifulSoup(PAGE, "html.parser").section
     assert chapter_slides(article, ["Recap"]).asked == []

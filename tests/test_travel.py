@@ -69,6 +69,16 @@ def test_every_demo_that_moves_is_a_light_file_with_its_source(folder):
         assert (folder / path.name.replace(".html", ".zip")).exists()
 
 
+def test_a_question_between_two_demos_goes_with_the_lower_one():
+    figure = '<figure class="vmc-demo"><script type="application/gzip"></script>Figure {}</span>'
+    first, second = (f"{figure.format(number)}</figure>" for number in ("1.1", "1.2"))
+    asked = '<div class="admonition tip"><fieldset class="vmc-predict"></fieldset></div>'
+    heads = [f'<{h}>Arm<a class="headerlink"></a></{h}>' for h in ("h1", "h2")]
+    for page, wanted in ((first + asked, [True]), (first + asked + second, [False, True])):
+        _, found = demos.read(page.join(heads))
+        assert ["vmc-predict" in html for _, html in found.values()] == wanted
+
+
 def test_a_figure_takes_the_modules_that_it_needs():
     state = pack_bytes(b'{"lines": []}')
     plot = f'<figure class="vmc-demo"><script type="application/gzip">{state}</script></figure>'

@@ -104,7 +104,8 @@ def alike_in_colour(first=histogram, second=histogram):
 )
 def fit_together(side=steps(40, 100, 10), gap=steps(10, 50, 10)):
     """Two square regions of {side} × {side} pixels, both full, lie side by side with a gap of {gap}
-    pixels in a picture of {WIDTH} × {HEIGHT}. How well do they fit together ('fill')?"""
+    pixels in a picture of {WIDTH} × {HEIGHT}. How well do they fit together ('fill'),
+    to four digits after the point?"""
     return 1 - gap * side / (WIDTH * HEIGHT)
 
 

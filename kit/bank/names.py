@@ -47,7 +47,7 @@ def do_intervals_meet(right=successes((40, 80, 160), 2)):
 @numeric("%", "Right calls over all calls.", tolerance=0.05)
 def precision_with_cups(n=steps(40, 90, 5), wrong=steps(2, 6, 1)):
     """All {n} shuttlecocks are named, and {wrong} cups are named shuttlecock too. What is
-    the precision?"""
+    the precision, to a tenth of a per cent?"""
     return 100 * n / (n + wrong)
 
 

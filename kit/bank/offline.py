@@ -137,6 +137,7 @@ def trials(axes, misses):
     best = misses.argmin()
     axes.plot(best, misses[best], "ko", ms=12, mfc="none")
     axes.set(xlabel="n of Eq. 7", ylabel="miss (mm)", ylim=(0, None))
+    axes.set_xticks(range(0, 21, 2))
     axes.grid(alpha=0.4)
 
 

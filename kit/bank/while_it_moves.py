@@ -185,6 +185,7 @@ def recoveries(axes, learned, opposite, order):
     """What is held in 20 guided reaches, three curves. {said}."""
     named = dict(zip("ABC", guided_recoveries(learned, opposite, order), strict=True))
     curves(axes, range(1, 21), named, "guided reach", "held")
+    axes.set_xticks(range(2, 21, 2))
 
 
 @picture(recoveries)
