@@ -5,7 +5,7 @@
 # make lab    open the chapters in JupyterLab
 # make kit    build the teacher's kit: notebooks for students, slides, the key, a bank of questions
 # make pdf    print the whole book as one PDF, _build/book.pdf (with a browser)
-# make data   remake all that ships, where something changed (hours; python -m reproduce --list says more)
+# make data   remake all that ships, where something changed (hours; .venv/bin/python -m reproduce --list says more)
 # make bench  measure what everything costs, beside named peers (half an hour; a quiet machine)
 # Each sets up its own environment in .venv (the benchmarks' peers: in .bench), once.
 
