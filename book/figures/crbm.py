@@ -33,7 +33,7 @@ def wave_spectra(crop, white):
     for pixels, label in ((crop, "the crop"), (white, "whitened")):
         frequency, amplitude = mean_amplitudes(pixels)
         ax.loglog(frequency, amplitude / amplitude[0], label=label)
-    ax.set(xlabel="frequency f (cycles a pixel)", ylabel="strength (broadest wave: 1)")
+    ax.set(xlabel="frequency f (cycles a pixel)", ylabel="strength (broadest: 1)")
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_formatter("{x:g}")
     ax.minorticks_off()
