@@ -208,7 +208,7 @@ def _pairs(blocks):
         elif _has_class(part, "vmc-demo"):
             if heading.name == "h1":
                 below = [p for h, p in blocks[place + 1 :] if h is heading]
-                if not any(_is(p, "vmc-demo") for p in below):
+                if not any(_has_class(p, "vmc-demo") for p in below):
                     box = box or next((p for p in below if p.select_one(".vmc-predict")), None)
             for folded in part.select(".vmc-live-form .vmc-more"):
                 folded["open"] = ""  # a class calls out what each of its sliders should be
