@@ -22,7 +22,7 @@ PACKAGES = {
     "page.python": "absent grader",
     "book.exercises": " ".join(path.stem for path in sorted(ROOT.glob("book/exercises/*.py"))),
     "reproduce": "one_draw paper",
-    "reproduce.experiments": "calibration feedback_control",
+    "reproduce.experiments": "calibration feedback_control offline_calibration",
     "reproduce.measures": "changed_worlds holding muscle_bench path_measures",
     "reproduce.peers": "lqr_tracking motor_noise muscle_models optimal_control state_estimation",
     "vmc_lib": "boxes camera checks compiled grading hints short_repr statistics",
