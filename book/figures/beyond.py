@@ -70,7 +70,7 @@ def sweeps():
     return by_quantity
 
 
-def error_divided(rows):
+def tenfold_divisor(rows):
     """What divides the error of a sweep's records: a tenfold size, on average, and all of it."""
     first, last = rows[0], rows[-1]
     whole = first["error"] / last["error"]
@@ -93,7 +93,7 @@ def scaling_curves(rows, quantity, measure):
         ax.set_xticks(sizes[marked], sizes[marked].astype(int))
         ax.set_yticks(values[marked], [f"{v:.3g}" for v in values[marked]])
         ax.minorticks_off()  # whose labels would lie over these
-    axes[0].set_title(f"a tenfold divides by {error_divided(rows)[0]:.1f}")
+    axes[0].set_title(f"a tenfold divides by {tenfold_divisor(rows)[0]:.1f}")
     return fig
 
 

@@ -8,10 +8,9 @@ from book.figures.reaching import corrections, ends, mean_mm, reaches
 from reproduce.experiments.calibration import FIFTH
 from reproduce.experiments.offline_calibration import hold_measures
 from reproduce.one_draw import error_ratio, mean_best_so_far
-from vmc_lib.arm.dynamics import hand
 from vmc_lib.motor import templates
 from vmc_lib.motor.planning import least_change
-from vmc_lib.motor.templates import START
+from vmc_lib.motor.templates import HOME
 from vmc_lib.show import table
 from vmc_lib.show.palette import COLOURS
 
@@ -20,7 +19,7 @@ FOUR = 0.06 * np.array([[1, -7], [2, -7], [2, -6], [1, -6]])  # templates round 
 ORIGINS = {  # where Eq. 7 may measure from, m
     "shoulder": (0, 0),
     "eye": (0.10, 0.25),
-    "resting hand": hand(START)[:2],
+    "resting hand": HOME,
     "ground": (0, -0.8),
 }
 SIGNS = {"hand to target": 1, "target to hand": -1}

@@ -22,7 +22,6 @@ PRINTED_NAMES = {  # in the paper's Table I; that its "Gaussian" is the sigmoid 
 FRESH_ROWS = (*fresh_test_set.KERNELS, *fresh_test_set.DETECTORS)
 PLANE = (-4, 5)  # of an SVM's two clouds: what is drawn of both axes
 YOURS = (3.3, -1.3)  # the example that the reader moves
-FRESH_PHOTOS = dict.fromkeys(fresh_test_set.KERNELS, 100)  # of a level; of detectors 200
 QUALITIES = ("a good candidate", "a box on the shuttlecock", "a good box")
 
 
@@ -182,7 +181,7 @@ def fresh_plot(level, measure):
     series = {"fresh photos": {}, "40 photos": {}}
     for row, (right, wrong, missed) in _fresh_counts(level).items():
         n, effect = (right + wrong, right + missed)[part], effects.get(row, (1, 1))[part]
-        fresh = FRESH_PHOTOS.get(row, 200)
+        fresh = 100 if row in fresh_test_set.KERNELS else 200  # photos
         for name, shots in zip(series, (fresh, 40), strict=True):
             worth = shots / fresh / effect
             series[name][row] = right / n, *wilson(worth * right, worth * n)

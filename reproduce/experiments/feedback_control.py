@@ -35,12 +35,12 @@ from vmc_lib.motor.feedback import (
     switch,
 )
 from vmc_lib.motor.planning import draw_targets, exact_weights, is_surrounded, plan
-from vmc_lib.motor.templates import START, load, reach
+from vmc_lib.motor.templates import HOME, load, reach
 
 JUMP, JUMPS_AT = 0.05, 0.15  # m and s: how far a target jumps, and when
 SCATTER_SHARE = 0.5  # noise at which reaches that the eye guides scatter by `SCATTER_MM`
 FIELD, BLOCKS = 15.0, (2, 10, 6)  # N for each m/s; blocks of reaches before, in and after the field
-FARTHEST = 0.085  # m: of eight equal reaches from `START` that end above the table
+FARTHEST = 0.085  # m: of eight equal reaches from `HOME` that end above the table
 
 GAINS = (2, 4, 8, 15, 30, 60, 120, 240, 480)
 BY_GAIN = {
@@ -200,13 +200,13 @@ def sweep_means(measured):
 
 
 def centre_out(template_set, turned=0.0):
-    """The reference of eight reaches from `START`, equally long, 25 degrees apart.
+    """The reference of eight reaches from `HOME`, equally long, 25 degrees apart.
 
     From straight back on, downwards and to the front; `turned` by so many degrees. Past experience
     knows no way up from there.
     """
     angle = np.radians(180 + turned + 25 * np.arange(8))
-    ends = hand(START)[:2] + FARTHEST * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    ends = HOME + FARTHEST * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     return reference_trajectory(exact_plans(ends, template_set), 1.0)
 
 

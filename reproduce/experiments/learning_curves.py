@@ -24,6 +24,7 @@ from reproduce.experiments.offline_calibration import (
     repeat_algorithm_1,
     trials_with_load,
 )
+from reproduce.experiments.planning_ablation import repeat
 from reproduce.measures.changed_worlds import block_errors
 from reproduce.peers.motor_noise import SCATTER_MM, endpoint_deviation, noise_floor, with_noise
 from vmc_lib.cerebellum.offline import broyden_calibration
@@ -51,7 +52,7 @@ def noisy_templates(stream, noise=NOISY):
     return templates_with_noise(wavers, stream)
 
 
-def kept_again(habit, trials, execute=execute):
+def repeat_best(habit, trials, execute=execute):
     """The `Movement`s (trials, n) of what is kept after each trial, given once more: no luck."""
     best = [trials.error[: k + 1].argmin(axis=0) for k in range(len(trials.error))]
     kept = np.take_along_axis(trials.weights, np.array(best)[..., None], axis=0)
@@ -64,14 +65,15 @@ def curves_by_tries(habit, rules, repeats=20):
     Also habit's miss and how far its repeated reaches end from their mean, both in mm; and what
     "noise alone" leaves (`noise_floor`).
     """
-    many = execute(habit.with_weights(np.tile(habit.weights, (repeats, 1, 1))))
+    many = execute(repeat(habit, repeats))
     miss = many.error.mean()
     return {
         "habit": 1000 * miss,
         "scatter": 1000 * endpoint_deviation(many.endpoint),
         "noise alone": noise_floor(many.hold) / miss,
         **{
-            k: kept_again(habit, rule(habit)).error.mean(axis=1) / miss for k, rule in rules.items()
+            k: repeat_best(habit, rule(habit)).error.mean(axis=1) / miss
+            for k, rule in rules.items()
         },
     }
 
@@ -108,7 +110,8 @@ def with_load(seed, noise=NOISY, count=25):
     past, rng = noisy_templates((seed, 9), noise), np.random.default_rng(seed)
     habit = nulls.draw_habit(past, rng, count)
     return {
-        load_name(name, guarded): 1000 * kept_again(habit, trials, move_with_load(kg)).error.mean(1)
+        load_name(name, guarded): 1000
+        * repeat_best(habit, trials, move_with_load(kg)).error.mean(1)
         for name, kg in LOADS.items()
         for guarded, trials in trials_with_load(habit, kg).items()
     }

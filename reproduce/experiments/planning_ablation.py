@@ -67,9 +67,9 @@ def repeat_best_trials(habit, repeats, once):
     return found
 
 
-def repeat(plan, count):
+def repeat(habit, count):
     """A batch of plans, (n,), so many times: (count, n)."""
-    return plan.with_weights(np.tile(plan.weights, (count, 1, 1)))
+    return habit.with_weights(np.tile(habit.weights, (count, 1, 1)))
 
 
 def on_noisy_arm(plans, percent):

@@ -31,7 +31,6 @@ from reproduce.ledger.entry import (
 from reproduce.measures import second_plant
 from reproduce.one_draw import COUNT, WHOLE_HOLD
 from reproduce.peers.motor_noise import SCATTER_MM
-from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import EYE
@@ -60,7 +59,7 @@ def _left_from_origins(seed):
     planned = algorithm_1(habit).error[0].mean()
     return {
         name: algorithm_1(habit, origin=origin).error.min(axis=0).mean() / planned
-        for name, origin in (("the eye", EYE), ("the resting hand", resting_hand()))
+        for name, origin in (("the eye", EYE), ("the resting hand", templates.HOME))
     }
 
 
@@ -71,11 +70,6 @@ def count_nearer(found, rule):
     """
     shares = found[rule]
     return round(COUNT * shares.sum()), COUNT * len(shares)
-
-
-def resting_hand():
-    """Where the hand is before every movement, (2,), m."""
-    return hand(templates.START)[:2]
 
 
 def by_luck(kind=""):

@@ -67,31 +67,32 @@ def test_a_movement_plays_to_its_end_and_stops_when_the_clock_is_set(moving):
     assert moving.inner_text(time) == "0.04 s"
 
 
-def test_a_key_on_the_clock_pauses_what_goes_from_step_to_step(open_demo, window):
+@pytest.fixture
+def playing(open_demo, window):
+    """A demo that goes from step to step, in the first one's movement."""
     page = open_demo(movement, window(), elbow=Slider([1.2, 1.5], "to", play=True))
     page.wait_for_selector(".vmc-clock:not([hidden])")
     stop_clock(page)
     page.click("[data-stride] ~ .vmc-play")
     page.clock.run_for(50)
-    page.press(".vmc-clock button", "Enter")
-    at = page.inner_text(".vmc-clock output")
-    page.clock.run_for(60_000)
-    assert page.inner_text("[data-stride] ~ .vmc-play") == "Play"
-    assert page.input_value("[data-stride]") == "0"
-    assert page.inner_text(".vmc-clock output") == at != "0.20 s"
+    return page
 
 
-def test_pause_stops_the_step_and_its_movement(open_demo, window):
-    page = open_demo(movement, window(), elbow=Slider([1.2, 1.5], "to", play=True))
-    page.wait_for_selector(".vmc-clock:not([hidden])")
-    stop_clock(page)
-    page.click("[data-stride] ~ .vmc-play")
-    page.clock.run_for(50)
-    page.click("[data-stride] ~ .vmc-play")
-    at = page.inner_text(".vmc-clock output")
-    page.clock.run_for(60_000)
-    assert page.inner_text(".vmc-clock output") == at != "0.20 s"
-    assert page.inner_text(".vmc-clock button") == "Play the movement"
+def test_a_key_on_the_clock_pauses_what_goes_from_step_to_step(playing):
+    playing.press(".vmc-clock button", "Enter")
+    at = playing.inner_text(".vmc-clock output")
+    playing.clock.run_for(60_000)
+    assert playing.inner_text("[data-stride] ~ .vmc-play") == "Play"
+    assert playing.input_value("[data-stride]") == "0"
+    assert playing.inner_text(".vmc-clock output") == at != "0.20 s"
+
+
+def test_pause_stops_the_step_and_its_movement(playing):
+    playing.click("[data-stride] ~ .vmc-play")
+    at = playing.inner_text(".vmc-clock output")
+    playing.clock.run_for(60_000)
+    assert playing.inner_text(".vmc-clock output") == at != "0.20 s"
+    assert playing.inner_text(".vmc-clock button") == "Play the movement"
 
 
 def test_a_movement_that_comes_after_a_posture_is_shown_at_its_end(open_demo):

@@ -6,7 +6,7 @@ from matplotlib.ticker import MultipleLocator
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import LIMITS
 from vmc_lib.camera import TABLE
-from vmc_lib.motor.templates import START
+from vmc_lib.motor.templates import HOME
 from vmc_lib.show.palette import COLOURS
 
 WHOLE = ((-0.2, 0.58), (-0.6, 0.12))  # from (x, y) low to high
@@ -28,5 +28,5 @@ def plane_view(ax, within=WHOLE):
 def plane(ax, templates, within=BEFORE):
     """The same with the templates (N, 2), and a square where every reach starts."""
     plane_view(ax, within)
-    ax.plot(*hand(START)[:2], "s", ms=6, mfc="none", color=COLOURS["ink"], gid="guide")
+    ax.plot(*HOME, "s", ms=6, mfc="none", color=COLOURS["ink"], gid="guide")
     ax.plot(*np.transpose(templates), "o", ms=4, color=COLOURS["grey"], gid="templates")

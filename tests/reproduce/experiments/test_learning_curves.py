@@ -16,7 +16,7 @@ from vmc_lib.motor.templates import load
 def test_without_noise_what_is_kept_misses_as_it_did():
     habit = plan(draw_targets(load(), 3, np.random.default_rng(0)), load())
     trials = broyden_calibration(habit, 2)
-    again = learning_curves.kept_again(habit, trials).error
+    again = learning_curves.repeat_best(habit, trials).error
     np.testing.assert_allclose(again, np.minimum.accumulate(trials.error), atol=1e-9)
 
 
@@ -24,14 +24,14 @@ def test_a_lucky_try_is_given_again_without_its_luck():
     habit = plan(draw_targets(load(), 3, np.random.default_rng(0)), load())
     weights = np.stack([habit.weights, habit.weights])
     lucky = Trials(weights, None, np.array([3 * [0.01], 3 * [0.0]]), ())
-    again = learning_curves.kept_again(habit, lucky).error
+    again = learning_curves.repeat_best(habit, lucky).error
     np.testing.assert_allclose(again, np.tile(execute(habit).error, (2, 1)), atol=1e-9)
 
 
 def test_what_is_kept_with_a_load_is_given_again_with_it():
     habit = plan(draw_targets(load(), 3, np.random.default_rng(0)), load())
     trials = offline.trials_with_load(habit, 0.25)[True]
-    again = learning_curves.kept_again(habit, trials, offline.move_with_load(0.25)).error
+    again = learning_curves.repeat_best(habit, trials, offline.move_with_load(0.25)).error
     np.testing.assert_allclose(again, np.minimum.accumulate(trials.error), atol=1e-9)
 
 
