@@ -78,6 +78,9 @@ def pytest_unconfigure(config):
         reporter.line(f"NOT TESTED: {count} of the tests. {why}", red=True, bold=True)
 
 
+# WebAssembly is compiled a second time, better, only where it works for long (thirty times as long
+# as is usual); and the edges of what is drawn in three dimensions need not be smooth
+LIGHT = "--js-flags=--wasm-tiering-budget=400000000", "--webgl-antialiasing-mode=none"
 ENGINES = [Firefox, pytest.param(WebKit, marks=pytest.mark.audit)]
 FAILED = pages.ROOT / "_build/failed"
 # What passed is long: it stays in the page
@@ -166,8 +169,7 @@ def chromium():
 
     if not browser.find():
         (pytest.fail if os.environ.get("CI") else pytest.skip)(browser.MISSING)
-    # WebAssembly is compiled once, quickly: to compile it better takes longer than a test gains
-    with browser.launch("--js-flags=--liftoff-only") as chromium:
+    with browser.launch(*LIGHT) as chromium:
         chromium.new_context = partial(pages.patient, chromium.new_context)
         yield chromium
 
