@@ -128,7 +128,7 @@ def test_a_muscle_is_named_under_the_pointer_and_chosen_by_its_name(moving):
     first = """div => {
       const view = vmc["demo/scene"].viewOf(div);
       const { top, left, width, height } = div.getBoundingClientRect();
-      for (let x = -1; x < 1; x += 0.02) for (let y = -1; y < 1; y += 0.02) {
+      for (let x = -1; x < 1; x += 0.05) for (let y = -1; y < 1; y += 0.05) {
         const k = view.body.muscles.muscleAt([x, y]);
         if (k !== null) return [left + (x + 1) / 2 * width, top + (1 - y) / 2 * height,
                                 view.anatomy.muscles[k].name];

@@ -47,5 +47,5 @@ def test_bandwidths_are_those_of_a_cell_behind_the_retina():
 
 
 def test_a_blob_wider_than_the_coarsest_stripe_has_no_bandwidth():
-    bell = np.exp(-np.square(np.arange(-32, 33) / 12) / 2)
+    bell = np.exp(-np.square(np.arange(-16, 17) / 6) / 2)
     assert gabor.bandwidths(np.outer(bell, bell))[0] == np.inf
