@@ -145,6 +145,20 @@ def test_what_a_picture_says_in_words_names_no_one_choice(name, questions):
         assert not re.search(r"nan|np\.|array\(|[{}]", alt)
 
 
+@pytest.mark.audit
+@pytest.mark.parametrize("name", PICTURES)
+def test_no_word_of_a_picture_is_cut(name, questions):
+    [several] = [several for (_, key), several in questions.items() if key == name]
+    for question in several:
+        figure = question.picture.figure
+        [axes] = figure.axes
+        figure.draw_without_rendering()
+        x0, y0, x1, y1 = axes.get_tightbbox().extents
+        assert 0 < min(x0, y0)
+        assert x1 < figure.bbox.width
+        assert y1 < figure.bbox.height
+
+
 def test_each_aim_of_the_course_has_pictures_that_ask_for_it():
     text = (ROOT / "kit/assistants.md").read_text(encoding="utf-8")
     aims = re.findall(r"^(\d)\. ", text, re.M)
