@@ -25,8 +25,8 @@ GROWN = """([pixels, k]) => {
   return { ...grow(segments, [true, true, true, true]), labels: btoa(text) };
 }"""
 SHOTS = (
-    *chain(*(photos.load(level, "train")[:2] for level in photos.LEVELS)),
-    *photos.everyday()[:4],
+    *chain(*(photos.load(level, "train")[:1] for level in photos.LEVELS)),
+    *photos.everyday()[:3],
 )
 
 

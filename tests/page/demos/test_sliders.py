@@ -87,7 +87,7 @@ def declare():
     )
 
 
-@pytest.mark.parametrize("place", np.random.default_rng(6).integers(0, 41, (20, 2)).tolist())
+@pytest.mark.parametrize("place", np.random.default_rng(6).integers(0, 41, (8, 2)).tolist())
 def test_a_threshold_trades_precision_for_recall_as_in_python(page, place):
     level, (threshold, overlap) = ["rig", "free"][sum(place) % 2], place
     box = page.locator(".vmc-demo").nth(0)
