@@ -268,7 +268,8 @@ ROWS = (
         "look like this. With any of the three left out (chapter 4), and for round blobs, this "
         "row differs. But no CRBM is needed: independent components and k-means of the same "
         "whitened patches are edges of different directions, too. Only the share in the middle "
-        "tells ours from theirs, and that was fitted.",
+        "tells ours from theirs, and that was fitted. The paper's captions name eight filters, its "
+        "text K = 10.",
     ),
     Row(
         "IV B, V1",
@@ -289,7 +290,9 @@ ROWS = (
         "them has a higher cosine than under the other units, by more than with each filter's "
         "numbers in another order. Shuttlecocks of the rig's validation photos. Any filter with a "
         "direction is tuned so: independent components and k-means of the same patches more than "
-        "ours. The number says that there are edges in both, and nothing of how they were learnt.",
+        "ours. The number says that there are edges in both, and nothing of how they were learnt. "
+        "Its interval is where one more order falls, in the network that ships: other photos and "
+        "other trainings are not in it.",
     ),
     Row(
         "IV B, W²",

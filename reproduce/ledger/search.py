@@ -147,7 +147,8 @@ ROWS = (
         "So many regions are positive and negative.",
         "03_regions",
         _rois,
-        differs="All boxes together are as many as the paper's, for that was fitted; but more of "
+        differs="All boxes together are as many as the paper's, for that was fitted (so those that "
+        "are positive, a part of them, are not free of the fit); but more of "
         "ours lie between, at an overlap of 0.5 to 0.8: groupings that differ cut one object in "
         "several ways.",
     ),

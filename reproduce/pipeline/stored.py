@@ -35,7 +35,7 @@ RESTS_ON = {  # a step, or what was recorded elsewhere -> the rows that read it
         "Fig. 4",
         "Fig. 10",
         "Ours, Table V",
-        "III, Eq. 6–7",
+        "Ours, Eq. 6–7",
         "Table VI",
         "Fig. 11",
         "Fig. 12",

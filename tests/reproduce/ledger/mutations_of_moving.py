@@ -256,14 +256,14 @@ RIVALS = {  # what a row says of each
     "Table V": {searches_blindly: NULL_PASSES},
     "Fig. 4": {tries_blindly: NULL_PASSES},
     "Fig. 10": {tries_blindly: NULL_PASSES},
-    "III, Eq. 6–7": {tries_blindly: DIFFERS},
+    "Ours, Eq. 6–7": {tries_blindly: DIFFERS},
     "V, robots": {searches_blindly: NULL_PASSES},
     "Table VI": {shuffles_pairs: DIFFERS, learns_no_lesson: NULL_PASSES},
     "Fig. 11": {learns_no_lesson: NULL_PASSES},
     "IV D, online": {learns_no_lesson: NULL_PASSES},
 }
 MOVING = {
-    "Fig. 3": [looks_at_the_cup],
+    "Ours, Fig. 3": [looks_at_the_cup],
     "IV C, computation": [plans_slowly],
     "III, Block 2, effort": [minimises_nothing],
     "Table IV": [silences_a_muscle],
@@ -283,6 +283,6 @@ MOVING = {
     "Fig. 11": [lessons_teach_nothing],
     "Fig. 12": [lessons_teach_nothing],
     "IV D, online": [learns_nothing],
-    "III, Eq. 6–7": [tries_blindly],
+    "Ours, Eq. 6–7": [tries_blindly],
     "Ours, Table VI": [mixes_alike_for_every_target],
 }

@@ -240,7 +240,7 @@ SEEING_RIVALS = {  # what a row says of each
         has_first_filters("k-means"): NULL_PASSES,
     },
     "IV B, W²": {has_second_filters(name): DIFFERS for name in other_filters.SECOND},
-    "III, Block 1-2, time": {heeds_what_varies_most: DIFFERS},
+    "Ours, time": {heeds_what_varies_most: DIFFERS},
 }
 SEEING = {
     "Ours, Fig. 1": [names_the_cup],
@@ -263,5 +263,5 @@ SEEING = {
     "Fig. 8": [
         partial(has_a_layer, layer="first", made=made) for made in (filters.shuffle, at_random)
     ],
-    "III, Block 1-2, time": [mixes_up_the_films, heeds_what_changes_most],
+    "Ours, time": [mixes_up_the_films, heeds_what_changes_most],
 }

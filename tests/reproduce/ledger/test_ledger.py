@@ -29,7 +29,7 @@ from vmc_lib.motor.templates import load
 from vmc_lib.photos import LEVELS
 from vmc_lib.statistics import t_interval
 
-TIME = "III, Block 1-2, time"
+TIME = "Ours, time"
 STORED = {entry["where"]: entry for entry in ledger.load_results()["rows"]}
 NUMBERS = [q for entry in STORED.values() for q in entry["quantities"]]
 
