@@ -13,6 +13,7 @@ from reproduce.experiments.feedback_control import NOISE, exact_plans, fit_forwa
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.motor.feedback import (
     OPEN_LOOP,
+    REFLEX,
     SIGHT,
     TICK,
     ReferenceTrajectory,
@@ -46,9 +47,9 @@ class Detours(NamedTuple):
 
 
 def simulate_detours(template_set, rng, count=60):
-    """`Detours`: straight and by a via-point, by the plan alone and with sight and a forward model.
+    """`Detours`: straight and by a via-point; by the plan alone, a reflex, a forward model, too.
 
-    All four meet the same noise.
+    All six meet the same noise.
     """
     model = fit_forward_model(template_set, rng)
     targets, balls = obstacles(template_set, count, rng)
@@ -58,7 +59,11 @@ def simulate_detours(template_set, rng, count=60):
         "straight": reference_trajectory(exact_plans(targets, template_set)),
         "by a via-point": ReferenceTrajectory(*map(np.concatenate, zip(*references, strict=True))),
     }
-    senses = {"the plan alone": (OPEN_LOOP, None), "forward model": (SIGHT, model)}
+    senses = {
+        "the plan alone": (OPEN_LOOP, None),
+        "reflex alone": (REFLEX, None),
+        "forward model": (SIGHT, model),
+    }
     paths = {}
     for route, sense in product(routes, senses):
         noise = {"noise": NOISE, "rng": np.random.default_rng(1)}

@@ -1,9 +1,10 @@
 """Habit, its calibrations and late feedback beside LQG control: equal arm, targets, noise, hold.
 
-All begin at rest in the same posture, reach for the `optimal_control.TARGETS`, on which no template
-lies, and hold for 1.5 s. Commands waver by `NOISE`, each millisecond anew, with the same draws for
-all; whoever has eyes gets the same reports, `DELAY` late and with the same errors. What can be
-tuned is tuned on other targets, for the least miss.
+All begin at rest in the same posture, reach for the `optimal_control.TARGETS`, on which no
+template lies, and hold for 1.5 s. Commands waver by `NOISE`, each millisecond anew, with the same
+draws for all; whoever has eyes gets the same reports, `DELAY` late and with the same errors. The
+late feedbacks also have the stretch reflex, whose sense is exact; LQG has not. What can be tuned
+is tuned on other targets, for the least miss.
 """
 
 from functools import partial
@@ -59,7 +60,7 @@ MUST_KNOW = {
     "habit": "templates",
     "habit, Algorithm 1": "templates; 21 tries at the target, and where they end",
     "habit, ours": "templates; 8 tries at the target, and their holds",
-    LATE: "templates, the way, inverse dynamics; the eye's reports",
+    LATE: "templates, the way in joints, inverse dynamics; the eye's reports, muscle lengths",
     FORESEEN: "the same, and the arm's equations",
     LQG: "the arm's equations, the sizes of all noises, a price; the eye's reports",
     AT_PRICE: "the same, and another price",

@@ -1,8 +1,9 @@
 """Feedback-error learning: what had to be corrected on the way is commanded at once next time.
 
 Granule cells sense where the arm should be and how fast; Purkinje cells sum them to an acceleration
-that joins the plan. Their lesson, at each place of the way, is the acceleration that the feedback
-asks for there: the climbing fibres carry a motor error (Kawato & Gomi 1992).
+that joins the plan. Their lesson, at each place of the way, is the acceleration that a feedback
+without delay would have asked for there: the climbing fibres carry a motor error (Kawato & Gomi
+1992, who take the command that the feedback really sends).
 """
 
 from typing import Self
