@@ -7,7 +7,7 @@ from book.figures.where import in_corner
 from reproduce import paper
 from reproduce.experiments import fresh_test_set, localisation, real_world, region_clusters
 from reproduce.measures.precision_recall import rates
-from vmc_lib.boxes import MIN_IOU, iou
+from vmc_lib.boxes import HIT_IOU, MIN_IOU, iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
 from vmc_lib.statistics import wilson
 
@@ -220,6 +220,17 @@ def photograph_table(head, questions):
             name = f"{model}, {split}{' (partly in-sample)' * tuned}"
             rows.append([name, *(real_world.share_text(*counts[q]) for q in questions)])
     return table([head, *questions], rows)
+
+
+def box_counts(model):
+    """Of a model's test photographs of shuttlecocks: how many boxes it keeps of each, the mean.
+
+    And on how many shuttlecocks one of its FEW best lies, and a good one.
+    """
+    found = real_world.load_results(model, "test").values()
+    shown = [result for result in found if result["holds"] == "shuttlecock"]
+    onto, good = (sum(r["few"] > least for r in shown) for least in (HIT_IOU, MIN_IOU))
+    return np.mean([result["boxes"] for result in shown]), onto, good
 
 
 def counts_table():

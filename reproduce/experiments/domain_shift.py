@@ -14,7 +14,7 @@ from reproduce.results import arrays
 from reproduce.training.samples import boxes_by_kind
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, K
-from vmc_lib.what.crops import crop, whiten
+from vmc_lib.what.crops import WIDTH, crop, whiten
 from vmc_lib.what.recogniser import READ_OUTS, read_outs
 
 NARROW = 48  # pixels of a crop: wider ones would take hours to learn from end to end
@@ -39,7 +39,7 @@ def make(
         split: [level_crops(level, split, folder) for level in LEVELS] for split in photos.SPLITS
     }
     network = train_narrow_cdbn(concatenate(labelled["train"])[0], patches)
-    eyes = [histograms_of_gradients, partial(cdbn_features, network)]
+    eyes = [hog_features, partial(cdbn_features, network)]
     looked = [
         {split: [(eye(x), y) for x, y in sets] for split, sets in labelled.items()} for eye in eyes
     ]
@@ -90,6 +90,15 @@ def train_narrow_cdbn(crops, patches):
     pictures, every = whiten(downsample(crops, NARROW)), np.ones(len(crops), bool)
     network = train_cdbn(pictures, every, patches=patches, second=SECOND | ON_NARROW)
     return CDBN.from_arrays(network.arrays())
+
+
+def hog_features(crops):
+    """HOG features (n, d) of crops that have no more pixels than those for the networks."""
+    import cv2
+
+    small = downsample(crops, NARROW)
+    enlarged = [cv2.resize(x, (WIDTH, WIDTH), interpolation=cv2.INTER_CUBIC) for x in small]
+    return histograms_of_gradients(np.array(enlarged))
 
 
 def cdbn_features(network, crops):

@@ -26,6 +26,7 @@ from vmc_lib.what.crops import whiten
 # Of macaque cells, full widths at half height: the median (De Valois, Yund & Hepler 1982,
 # abstract), and means of two samples (Foster et al. 1985)
 MACAQUE, OCTAVES = 40, (1.4, 1.8)  # degrees; octaves
+EMPTY = np.zeros((1, 1, paper.CROP_WIDTH, paper.CROP_WIDTH), np.float32)  # whitened
 NETWORKS = [variation for variation in cdbn_sensitivity.VARIATIONS if variation[0] == cdbn.N_W]
 
 
@@ -204,38 +205,40 @@ def _gabor_fits():
 
 
 def _preferences():
-    """How much more layers answer to shuttlecocks than to cups, by teacher and by layer."""
+    """How much more layers answer to shuttlecocks than to cups, by lesson and by layer."""
+    preferences = second_layers.load_results()["preferences"].T
+    taught = dict(zip(second_layers.KINDS, preferences, strict=True))
+    own, cups, *_ = preferences
+    means = {kind: values.mean() for kind, values in taught.items()}
     crops, shuttlecock = cdbn.crops_of(photos.load("rig", "validation"))
-    layers = cdbn.CDBN.load().layers(whiten(crops))
-    taught = second_layers.load_results()["preferences"]
-    prefers = {
-        name: second_layers.preference(layers[layer], shuttlecock)
-        for name, layer in (("P¹", "P1"), ("P²", "P2"))
-    }
+    rest, maps = (cdbn.CDBN.load().layers(v) for v in (EMPTY, whiten(crops)))
+    p1, p2 = (second_layers.preference(maps[k], rest[k], shuttlecock) for k in ("P1", "P2"))
+    response = "evoked response to shuttlecocks over cups: of P²"
     return [
         mean(
-            "P² to shuttlecocks over cups: taught by shuttlecocks, less taught by cups",
+            f"{response} taught by shuttlecocks, less of P² taught by cups",
             0,
-            taught[:, 0] - taught[:, 1],
+            own - cups,
             "pairs of trainings",
+            nulls={kind: means[kind] - cups.mean() for kind in ("mirrored", "noise")},
             **ABOVE,
         ),
         mean(
-            "answer to shuttlecocks over cups: of P², less of P¹",
+            f"{response}, less of P¹",
             0,
-            prefers["P²"] - prefers["P¹"],
+            p2 - p1,
             "photos",
+            nulls={kind: means[kind] - p1.mean() for kind in second_layers.KINDS[1:]},
             **ABOVE,
         ),
+        mean("the same of P¹", None, p1, "photos"),
+        mean("the same of P²", None, p2, "photos"),
         *(
-            mean(f"answer of {name} to shuttlecocks over cups", None, values, "photos")
-            for name, values in prefers.items()
+            mean(f"the same of P², {kind}", None, values, "trainings")
+            for kind, values in taught.items()
         ),
-        mean(
-            "answer of P² to shuttlecocks over cups, of networks that shuttlecocks taught",
-            None,
-            taught[:, 0],
-            "trainings",
+        Quantity(
+            "probability that a unit of P² is on in an empty picture", None, rest["P2"].mean()
         ),
     ]
 
@@ -299,21 +302,15 @@ ROWS = (
         "The second layer's features are more complex, and the badminton's own.",
         "05_hierarchy",
         _deeper,
-        differs="They are not the badminton's own: the second layer prefers shuttlecocks to cups "
-        "*less* than the first layer does "
-        "({q[answer of P² to shuttlecocks over cups].obtained:.2f} times as strong an answer in "
-        "the network that ships, "
-        "{q[answer of P² to shuttlecocks over cups, of networks that shuttlecocks taught]"
-        ".obtained:.2f} in the mean of others, and "
-        "{q[answer of P¹ to shuttlecocks over cups].obtained:.2f}): a shuttlecock has more edges "
-        "than a cup, and much of that is lost. Nor do the fits of a Gabor show that anything more "
-        "complex was learnt: a second layer of smoothed noise fits as badly as ours, and so does "
-        "ours with its maps in another order, or in the mirror.",
-        note="What stands: the lesson leaves a mark. A second layer that shuttlecocks taught "
-        "prefers them more than one that cups taught, by "
-        "{q[P² to shuttlecocks over cups: taught by shuttlecocks, less taught by cups]"
-        f".obtained:.2f}}, in {len(second_layers.SEEDS)} pairs, each taught by "
-        f"{second_layers.PATCHES} patches.",
+        note="An evoked response is what is above the answer to an empty picture: there units of "
+        "P² are on in {q[probability that a unit of P² is on in an empty picture].obtained:.2f} of "
+        "all places, those of P¹ hardly anywhere. The lesson leaves a mark: a second "
+        "layer that shuttlecocks taught prefers them more than one that cups taught, in "
+        f"{len(second_layers.SEEDS)} pairs, each taught by {second_layers.PATCHES} patches. But so "
+        "do its filters in the mirror, which fit no shuttlecock's parts, and noise as strong: the "
+        "mark is not in the texture. Nor do the fits of a Gabor show that anything more complex "
+        "was learnt: a second layer of smoothed noise fits as badly as ours, and so does ours with "
+        "its maps in another order, or in the mirror.",
     ),
     Row(
         "III, Block 1-2",

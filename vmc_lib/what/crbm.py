@@ -59,9 +59,9 @@ class CRBM:
             )
         self.W, self.b, self.a, self.c = W, b, a, c
 
-    def with_filters(self, W: np.ndarray) -> "CRBM":
+    def with_filters(self, W: np.ndarray) -> Self:
         """The same CRBM with other filters, of the shape of its own."""
-        return CRBM(W, self.b, self.a, self.c)
+        return type(self)(W, self.b, self.a, self.c)
 
     def preactivation(self, v: np.ndarray) -> np.ndarray:
         """Preactivation of each hidden unit, (W̃ᵏ * v)ᵢⱼ + bₖ.

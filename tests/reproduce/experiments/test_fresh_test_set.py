@@ -8,8 +8,8 @@ from reproduce.experiments import fresh_test_set, localisation
 from vmc_lib import photos
 from vmc_lib.what.recogniser import READ_OUTS
 
-PUBLISHED = {  # what is asked of the published recipe, on the rig alone
-    fresh_test_set.CEILING,
+ON_THE_RIG = {fresh_test_set.CEILING, fresh_test_set.UNCORRECTED}  # and PUBLISHED, on the rig alone
+PUBLISHED = {  # what is asked of each training of the published recipe
     *product(
         (*localisation.TABLE_1_KERNELS, *fresh_test_set.READINGS), range(localisation.TRAININGS)
     ),
@@ -18,13 +18,13 @@ PUBLISHED = {  # what is asked of the published recipe, on the rig alone
 
 def test_counts_cover_two_hundred_photos_a_level():
     counts = fresh_test_set.load_results()
-    assert set(counts) == PUBLISHED | {
+    assert set(counts) == ON_THE_RIG | PUBLISHED | {
         *fresh_test_set.KERNELS,
         *fresh_test_set.DETECTORS,
         *product(READ_OUTS, fresh_test_set.NETWORK_SEEDS),
     }
     for question, levels in counts.items():
-        if question in PUBLISHED:
+        if question in ON_THE_RIG | PUBLISHED:
             continue
         assert list(levels) == list(photos.LEVELS)
         for level, (right, _, missed) in levels.items():
@@ -38,7 +38,7 @@ def test_counts_cover_two_hundred_photos_a_level():
 
 def test_published_recipe_is_tested_on_the_same_photos_by_every_training():
     counts = fresh_test_set.load_results()
-    for name, seed in PUBLISHED - {fresh_test_set.CEILING}:
+    for name, seed in PUBLISHED:
         (right, _, missed), of = counts[name, seed]["rig"], counts[name, 0]["rig"]
         assert list(counts[name, seed]) == ["rig"]
         assert right + missed == of[0] + of[2]

@@ -10,7 +10,6 @@ from tests.reproduce.ledger.mutations_of_seeing import (
     SEEING,
     SEEING_RIVALS,
     learns_by_a_broken_recipe,
-    mixes_the_lessons,
 )
 
 MUTATIONS, EVERY_RIVAL = SEEING | MOVING, SEEING_RIVALS | RIVALS
@@ -64,14 +63,6 @@ def test_verdict_changes_when_the_code_is_wrong(where, mutate, monkeypatch):
 def test_a_row_says_what_it_makes_of_a_rival(where, rival, says, monkeypatch):
     rival(monkeypatch)
     assert measure(ROWS[where])["verdict"] == says
-
-
-@pytest.mark.audit
-def test_what_the_second_layer_prefers_depends_on_its_lesson(monkeypatch):
-    """What stands of *IV B, W²*."""
-    mixes_the_lessons(monkeypatch)
-    numbers = measure(ROWS["IV B, W²"])["quantities"]
-    assert [q["verdict"] for q in numbers if "taught by" in q["name"]] == [DIFFERS]
 
 
 def test_the_recipe_that_is_whole_looks_like_gabors(monkeypatch):
