@@ -111,8 +111,10 @@ def draws_few(patch, module):
 
 
 def forgets_half_of_the_votes(patch):
-    real = calibration.leaning
-    patch.setattr(calibration, "leaning", lambda moved, preferred: real(moved, preferred[:7]))
+    real = calibration.largest_deviation
+    patch.setattr(
+        calibration, "largest_deviation", lambda moved, preferred: real(moved, preferred[:7])
+    )
 
 
 def turns_the_error(patch):
@@ -135,6 +137,11 @@ def learns_nothing(patch):
         patch.setattr(rule, "update", lambda self, *lesson, **how: self)
     for module in (calibration, online):
         patch.setattr(module, "load_results", lambda: Again.of("online", experiments=10))
+    few = {
+        reading: {name: draws[: len(FEW)] for name, draws in found.items()}
+        for reading, found in nulls.load_results().items()
+    }
+    patch.setattr(nulls, "load_results", lambda: few)
 
 
 def mixes_alike_for_every_target(patch):
