@@ -3,8 +3,11 @@
 All begin at rest in the same posture, reach for the `optimal_control.TARGETS`, on which no
 template lies, and hold for 1.5 s. Commands waver by `NOISE`, each millisecond anew, with the same
 draws for all; whoever has eyes gets the same reports, `DELAY` late and with the same errors. The
-late feedbacks also have the stretch reflex, whose sense is exact; LQG has not. What can be tuned
-is tuned on other targets, for the least miss.
+late feedbacks also have the stretch reflex, whose sense is exact; LQG has not. So two rows more
+tell the reflex apart: it alone, and LQG with the same reflex, whose commands the filter is told or
+not. What can be tuned is tuned on other targets, for the least miss (LQG's price without a reflex).
+The processor's time of all with feedback includes the arm's steps, one tick after the other, as far
+as they take longer than those of habit's whole reach.
 """
 
 from functools import partial
@@ -51,7 +54,14 @@ RULES = {  # how habit's weights are found, by trials on the arm that wavers
     "habit, ours": gauss_newton_calibration,
 }
 LATE, FORESEEN, LQG = "late feedback", "late feedback, forward model", "LQG"
+BLIND, FELT, TOLD = "reflex alone", "LQG, reflex", "LQG, reflex, filter told"
 AT_PRICE = f"LQG, price {lqg.PRICE:g}"  # not tuned
+LQG_KINDS = {  # by name: a price, or None for the tuned one, and what `lqg.steer` is to do
+    LQG: (None, {}),
+    FELT: (None, {"reflex": True}),
+    TOLD: (None, {"reflex": True, "copied": True}),
+    AT_PRICE: (lqg.PRICE, {}),
+}
 MISS, LATER, EFFORT = "miss, 1.0–1.5 s (mm)", "at 2.5 s (mm)", "effort / the least"
 PATH, JERK, SCATTER = "way / straight way", "jerk / the least", "scatter (mm)"
 TIME = "processor (ms)"
@@ -60,10 +70,13 @@ MUST_KNOW = {
     "habit": "templates",
     "habit, Algorithm 1": "templates; 21 tries at the target, and where they end",
     "habit, ours": "templates; 8 tries at the target, and their holds",
+    BLIND: "templates, the way in joints; muscle lengths",
     LATE: "templates, the way in joints, inverse dynamics; the eye's reports, muscle lengths",
     FORESEEN: "the same, and the arm's equations",
     LQG: "the arm's equations, the sizes of all noises, a price; the eye's reports",
-    AT_PRICE: "the same, and another price",
+    FELT: "the same; muscle lengths",
+    TOLD: "the same; muscle lengths, and what the reflex commands",
+    AT_PRICE: "as LQG, and another price",
 }
 
 
@@ -106,11 +119,11 @@ def lqg_law(target, share=NOISE, price=lqg.PRICE, start=None, **more):
     return lqg.solve(start, target, price, share=lqg.per_tick(share), **more)
 
 
-def lqg_paths(law, luck, share=NOISE, delay=DELAY):
-    """The same by an LQG law, whose senses err and are late."""
+def lqg_paths(law, luck, share=NOISE, delay=DELAY, **reflex):
+    """The same by an LQG law, whose senses err and are late; `reflex` as for `lqg.steer`."""
     filters = lqg.filter_gains(law, round(1000 * delay / TICK), lqg.per_tick(share))
     draws = np.swapaxes(luck.noise, 0, 1).reshape(-1, TICKS, TICK, 6)
-    states, _ = lqg.steer(law, filters, share, draws, np.swapaxes(luck.errors, 0, 1))
+    states, _ = lqg.steer(law, filters, share, draws, np.swapaxes(luck.errors, 0, 1), **reflex)
     return hand(states[..., :2])[..., :2], states[..., 4:]
 
 
@@ -172,12 +185,15 @@ def compare(target, number, tuned, repeats=REPEATS):
         times[name], learnt = _learn(rule, plan(target[None], wavering))
         runs[name] = partial(_by_habit, habit.with_weights(learnt))
     still = _seconds(lambda: habit_paths(habit, calm))
-    for name, model in {LATE: None, FORESEEN: arm_copy()}.items():
-        runs[name] = partial(_by_feedback, habit, tuned[name], model)
+    gains = {BLIND: (0.0, 0.0), LATE: tuned[LATE], FORESEEN: tuned[FORESEEN]}
+    for name, pair in gains.items():
+        model = arm_copy() if name == FORESEEN else None
+        runs[name] = partial(_by_feedback, habit, pair, model)
         times[name] = _seconds(lambda run=runs[name]: run(calm, 0.0)) - still
-    for name, price in {LQG: tuned[LQG].item(), AT_PRICE: lqg.PRICE}.items():
+    for name, (price, reflex) in LQG_KINDS.items():
         start = process_time()
-        runs[name] = partial(lqg_paths, lqg_law(target, price=price))
+        law = lqg_law(target, price=tuned[LQG].item() if price is None else price)
+        runs[name] = partial(lqg_paths, law, **reflex)
         runs[name](calm, 0.0)
         times[name] = process_time() - start - still
     least = np.square(reach(optimal_excitations()[number], hold=0.0).activation).mean()

@@ -33,12 +33,13 @@ from reproduce.peers.lqr_tracking import (
 )
 from reproduce.peers.optimal_control import CLEARANCE
 from reproduce.peers.state_estimation import kalman_gains
-from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.dynamics import hand, paths
+from vmc_lib.arm.engines import fibres
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import add_noise, euler_activation, noisy
 from vmc_lib.camera import TABLE
 from vmc_lib.data import arrays
-from vmc_lib.motor.feedback import TICK
+from vmc_lib.motor.feedback import REFLEX, TICK
 from vmc_lib.motor.inverse_dynamics import MOVING, bounded_least_squares
 from vmc_lib.motor.templates import START
 
@@ -46,6 +47,7 @@ SENSED = np.eye(4, 10)  # of the state: angles and speeds
 ERRORS = np.array([0.01, 0.01, 0.1, 0.1])  # rad and rad/s: a few mm, and a few cm/s, at the hand
 PRICE = 3.0  # of a command's square, where 5 mm or 50 mm/s cost 1 at every tick
 EVERY_WAY = (1.0, 1.0)  # a miss forward costs, and one upwards
+SPINAL = round(REFLEX.spinal / (TICK * STEP))  # ticks
 SETTLED = 300  # ms in which a muscle's mean pull is measured
 ENOUGH = 1e-4  # of its cost: what a better reach must gain
 STEPS = 0.5 ** np.arange(6)  # of a change of the commands, as far as it makes the reach cheaper
@@ -204,11 +206,31 @@ def mean_pulls(share):
     return levels, mean
 
 
-def steer(law, filters, share, draws, errors):
+def stretch_reflex(way, reference, t):
+    """The stretch reflex of `motor.feedback`: what it adds to the commands of a tick, (…, TICK, 6).
+
+    From the states (…, 10) so far, one a tick, and a reference (T + 1, 10). It feels the muscles
+    exactly and `SPINAL` late, each millisecond: between two ticks states are interpolated.
+    """
+    if t < SPINAL:
+        return 0.0
+    share = np.arange(TICK)[:, None] / TICK
+    (length, rate), (meant, meant_rate) = (
+        fibres(*paths(felt[..., :2]), felt[..., 2:4])
+        for felt in (
+            before[..., None, :] + share * (after - before)[..., None, :]
+            for before, after in (x[t - SPINAL : t - SPINAL + 2] for x in (way, reference))
+        )
+    )
+    return REFLEX.stretch * (length - meant) + REFLEX.rate * (rate - meant_rate)
+
+
+def steer(law, filters, share, draws, errors, reflex=False, copied=False):
     """Where hands go by a law and its Kalman gains: states (B, T + 1, 10), commands (B, T, 6).
 
     `draws` (B, T, TICK, 6) of unit noise make the commands waver by a `share`, each millisecond
-    anew; `errors` (B, T, 4) add to the reports.
+    anew; `errors` (B, T, 4) add to the reports. With a `reflex` the `stretch_reflex` adds to the
+    commands; where it is `copied`, the filter is told what it adds.
     """
     late = (filters.shape[-2] - 10) // 4
     ahead = next_states(law.reference[:-1], np.repeat(law.commands[:, None], TICK, axis=1))
@@ -218,11 +240,16 @@ def steer(law, filters, share, draws, errors):
     guess, way, sent = np.zeros((len(draws), 10 + 4 * late)), [now], []
     for t, told in enumerate(law.commands):
         u = np.clip(told - guess[:, :10] @ law.gains[t].T, 0, 1)
-        sent.append(np.interp(u, *mean_pulls(share)[::-1]))
-        now = next_states(now, add_noise(sent[-1][:, None], share, draws[:, t]))
+        excited = u[:, None]
+        if reflex:
+            excited = np.clip(excited + stretch_reflex(way, law.reference, t), 0, 1)
+        pulled = np.interp(excited, *mean_pulls(share)[::-1])
+        now = next_states(now, add_noise(pulled, share, draws[:, t]))
+        sent.append(pulled.mean(axis=1))
         way.append(now)
         guess = guess @ whole[t].T
-        guess[:, :10] += (u - told) @ law.B[t].T + slip[t]
+        known = excited.mean(axis=1) if copied else u
+        guess[:, :10] += (known - told) @ law.B[t].T + slip[t]
         then = max(t + 1 - late, 0)
         report = (way[then] - law.reference[then])[:, :4] + errors[:, t]
         guess = guess + (report - guess @ arrives[t].T) @ filters[t].T

@@ -162,7 +162,9 @@ def online_errors(past, seed, count=COUNT, width=WIDTH):
 def optimised_errors(past, synergies, seed, count=COUNT):
     """One draw: every reach computed afresh, as the memories were made, beside mixing them.
 
-    The optimiser's miss over the way, at once and aimed again; seconds that a plan takes.
+    The optimiser's miss over the way: at once; then with one movement more, after which the hold is
+    made ("held") or all is aimed beyond the goal by the miss ("aimed"); and "again", as memories
+    are made, by three. And the seconds that a plan takes.
     """
     targets = draw_targets_3d(past, count=count, rng=np.random.default_rng(seed))
     began = process_time()
@@ -174,9 +176,13 @@ def optimised_errors(past, synergies, seed, count=COUNT):
         "seconds, optimiser": spent / count,
         "seconds, habit": (process_time() - began) / count,
     }
-    again = habits.record_templates(synergies, targets)
+    moved, again = synergies.move(commands), habits.record_templates(synergies, targets)
+    beyond = 2 * targets - moved.endpoint
+    aimed = np.array([synergies.commands(habits.reach_posture(goal)) for goal in beyond])
     holds = {
-        "once": synergies.move(commands).hold,
+        "once": moved.hold,
+        "held": synergies.move(synergies.hold(commands)).hold,
+        "aimed": synergies.move(aimed).hold,
         "again": again.reach(again.excitations).hold,
     }
     off = {k: mean_distance(hold, targets).mean() for k, hold in holds.items()}

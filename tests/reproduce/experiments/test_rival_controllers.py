@@ -6,6 +6,10 @@ import numpy as np
 import pytest
 
 from reproduce.experiments import rival_controllers as rivals
+from reproduce.peers import lqg
+from vmc_lib.arm.dynamics import paths
+from vmc_lib.arm.engines import fibres
+from vmc_lib.motor.feedback import REFLEX, TICK, push, reference_trajectory, simulate_feedback
 from vmc_lib.motor.planning import plan
 from vmc_lib.motor.templates import load
 from vmc_lib.statistics import t_interval
@@ -91,3 +95,31 @@ def test_late_feedback_without_gain_and_delay_meets_the_same_noise_as_habit():
     still = rivals.SIGHT._replace(stretch=0.0, rate=0.0)
     path, _ = rivals.feedback_paths(plans, 0.0, 0.0, luck, gains=still)
     np.testing.assert_allclose(path, alone, atol=1e-9)
+
+
+def test_lqg_meets_the_stretch_reflex_of_late_feedback():
+    """By the states of one and the same reach: each tick's share of the reflex, as there."""
+    plans = rivals.repeat_plans(plan(rivals.TARGETS[9:10], load()), 2)
+    reference = reference_trajectory(plans, 1.0)
+    motion = simulate_feedback(reference, REFLEX, disturbance=push((20.0, 0.0), 0.2))
+    meant = np.concatenate([reference.q, reference.velocity], axis=-1)
+    felt = np.concatenate([motion.q, motion.velocity], axis=-1)
+    way = np.swapaxes(felt[:, ::TICK], 0, 1)
+    now = lqg.stretch_reflex(way, meant[0, ::TICK], 28)
+    ms = slice(280 - 30, 290 - 30)
+    (length, rate), (wanted, wanted_rate) = (
+        fibres(*paths(x[:, ms, :2]), x[:, ms, 2:]) for x in (felt, meant)
+    )
+    exact = REFLEX.stretch * (length - wanted) + REFLEX.rate * (rate - wanted_rate)
+    assert np.abs(exact).max() > 0.03
+    np.testing.assert_allclose(now, exact, atol=5e-4)
+    assert not np.any(lqg.stretch_reflex(way, meant[0, ::TICK], 2))
+
+
+def test_with_the_same_reflex_lqg_is_nearer_and_scatters_less():
+    """And late feedback scatters less without its sight than with it."""
+    measures = rivals.load_results()["measures"]
+    pairs = [(rivals.LQG, rivals.FELT, what) for what in (rivals.MISS, rivals.SCATTER)]
+    for worse, better, what in [*pairs, (rivals.LATE, rivals.BLIND, rivals.SCATTER)]:
+        middle, half = t_interval(measures[f"{worse}, {what}"] - measures[f"{better}, {what}"])
+        assert middle > half, (worse, what)
