@@ -205,12 +205,14 @@ def minimal_intervention(path, target, bar, aim):
 
 def miss_and_effort(effort, miss):
     """Effort against miss in mm, means with 95 % intervals, by controller: draws (n,) of each."""
-    fig, ax = plt.subplots(figsize=(4.3, 4))  # inches: a phone has the plot's whole width
+    fig, ax = plt.subplots(figsize=(4.3, 4.4))  # inches: a phone has the plot's whole width
     marks = "grey o, purple o, red o, orange s, orange o, green o, blue o, blue s, blue ^, ink o"
     for name, mark in zip(effort, marks.split(", "), strict=True):
         (x, wide), (y, high) = t_interval(effort[name]), t_interval(miss[name])
         hue, shape = mark.split()
-        ax.errorbar(x, y, high, wide, fmt=shape, color=COLOURS[hue], label=name)
+        form = {"fmt": shape, "label": name, "color": COLOURS[hue]}
+        form |= {} if shape == "o" else {"mfc": "none", "ms": 9}  # many stand in one place
+        ax.errorbar(x, y, high, wide, **form)
     ax.set(xlabel="effort / the least", ylabel="miss (mm)", xlim=(0.5, 5.0), ylim=(0, 22))
     fig.legend(loc="outside upper center", ncols=2, columnspacing=1, handlelength=1)
     return fig
