@@ -3,13 +3,17 @@
 Hands move in the plane, in metres, with a sample every millisecond.
 """
 
+from itertools import product
+
 import numpy as np
+from sklearn.linear_model import LinearRegression
 
 from book.figures.panels import curves, panels, shade, shade_change
 from book.figures.reaching import RING, norm_mm
 from reproduce.experiments import feedback_control as measure
 from reproduce.measures.path_measures import end_error, end_speed, end_swing, push_error
-from vmc_lib.cerebellum.forward_model import arm_copy
+from vmc_lib.cerebellum.forward_model import arm_copy, state_inputs
+from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.motor.feedback import SIGHT
 from vmc_lib.show import dot_plot, table
 from vmc_lib.show.arm_plane import plane
@@ -144,6 +148,36 @@ def models_by_lessons(template_set, counts):
     felt = [f"{n} reach{'es' * (n > 1)} felt" for n in counts]
     inert = {"no model": None, "it goes on as it goes": lambda q, velocity, activation: 0 * q}
     return inert | dict(zip(felt, learnt, strict=True)) | {"the true equations": arm_copy()}
+
+
+def null_models(template_set, counts):
+    """Forward models by (rule, inputs) and count: granule cells' nulls, from the same lessons."""
+    rules = {
+        "least squares": LinearRegression,
+        "granule cells": lambda: GranuleCells(width=1.0, cells=300, ridge=1e-3),
+    }
+    inputs = {"torque": state_inputs, "activations": measure.active_inputs}
+    kinds = [*product(rules, inputs)]
+    kinds.remove(("granule cells", "torque"))  # the chapter's own
+    return {
+        (rule, told, n): measure.fit_null_model(
+            template_set, np.random.default_rng(5), n, rules[rule](), inputs[told]
+        )
+        for rule, told in kinds
+        for n in counts
+    }
+
+
+def null_table(overshoots, own, counts):
+    """How far the hand overshoots, mm, by rule, by inputs, and by reaches felt: a table.
+
+    `own` (counts,) are the granule cells' of the chapter.
+    """
+    rows = [["granule cells", "torque", *own]]
+    for rule, told in dict.fromkeys(key[:2] for key in overshoots):
+        rows.append([rule, told, *(overshoots[rule, told, n] for n in counts)])
+    felt = [f"{n} reach{'es' * (n > 1)} felt" for n in counts]
+    return table(["overshoot (mm) by", "from posture, speed and", *felt], rows, ".1f")
 
 
 def kinematics_table(gains):

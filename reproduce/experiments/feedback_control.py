@@ -21,9 +21,10 @@ from reproduce.measures.path_measures import (
 )
 from reproduce.peers.motor_noise import SCATTER_MM
 from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.cerebellum.feedback_error import FeedbackErrorLearning
-from vmc_lib.cerebellum.forward_model import ForwardModel
+from vmc_lib.cerebellum.forward_model import BETWEEN, FAST, ForwardModel, state_inputs
 from vmc_lib.motor.feedback import (
     OPEN_LOOP,
     REFLEX,
@@ -70,8 +71,32 @@ def exact_plans(targets, template_set):
 
 def fit_forward_model(template_set, rng, count=20, noise=NOISE):
     """A `ForwardModel` that has felt so many reaches with motor noise, without sight."""
+    return ForwardModel().update(_lessons(template_set, rng, count, noise))
+
+
+def _lessons(template_set, rng, count, noise=NOISE):
     some = exact_plans(draw_targets(template_set, count, rng), template_set)
-    return ForwardModel().update(reach(noisy(some.excitations, noise, rng)))
+    return reach(noisy(some.excitations, noise, rng))
+
+
+def active_inputs(q, velocity, activation):
+    """`state_inputs` with the activations in place of the torque that they give, (B, 10)."""
+    return np.concatenate([q, velocity / FAST, activation], axis=-1)
+
+
+def fit_null_model(template_set, rng, count, cells, inputs=state_inputs):
+    """The null of `fit_forward_model`: the same lessons by other `cells`, or from other `inputs`.
+
+    `cells` have scikit-learn's `fit` and `predict`. The samples are those of `ForwardModel`.
+    """
+    motion = _lessons(template_set, rng, count)
+    q, velocity, activation = (
+        x[:, BETWEEN:-1:BETWEEN].reshape(-1, x.shape[-1])
+        for x in (motion.q, motion.velocity, motion.activation)
+    )
+    felt = np.diff(motion.velocity, axis=1)[:, BETWEEN::BETWEEN].reshape(-1, 2) / STEP
+    cells.fit(inputs(q, velocity, activation), felt)
+    return lambda *state: cells.predict(inputs(*state))
 
 
 def draw_target_jumps(template_set, count, rng, by=JUMP):
@@ -230,9 +255,9 @@ def curl_field_deviations(learner, template_set, model, rng, blocks=BLOCKS, nois
     return np.array(bends), np.array(held_out)
 
 
-def reach_in_field(learner, reference, disturbance, model, rng, noise=NOISE):
+def reach_in_field(learner, reference, disturbance, model, rng, noise=NOISE, gains=SIGHT):
     """Noisy reaches with what was learned: their deviation (B,) in m, and their `Motion`."""
-    motion = simulate_feedback(learner.correct(reference), SIGHT, model, disturbance, noise, rng)
+    motion = simulate_feedback(learner.correct(reference), gains, model, disturbance, noise, rng)
     return path_deviation(motion.hand[..., :2], hand(reference.q)[..., :2]), motion
 
 
