@@ -6,14 +6,13 @@ Hands move in the plane, in metres, with a sample every millisecond.
 from itertools import product
 
 import numpy as np
-from sklearn.linear_model import LinearRegression
 
 from book.figures.panels import curves, panels, shade, shade_change
 from book.figures.reaching import RING, norm_mm
 from reproduce.experiments import feedback_control as measure
 from reproduce.measures.path_measures import end_error, end_speed, end_swing, push_error
 from vmc_lib.cerebellum.forward_model import arm_copy, state_inputs
-from vmc_lib.cerebellum.online import GranuleCells
+from vmc_lib.cerebellum.online import GranuleCells, LinearRegression
 from vmc_lib.motor.feedback import SIGHT
 from vmc_lib.show import dot_plot, table
 from vmc_lib.show.arm_plane import plane
