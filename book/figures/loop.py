@@ -19,7 +19,7 @@ from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 from vmc_lib.statistics import wilson
 
 SEEING = ("a photo", "candidates", "regions", "after suppression", "names")
-LOOP_STEPS = (*SEEING, "first reach", "calibrated reach", "our own rule")
+LOOP_STEPS = (*SEEING, "first reach", "calibrated reach", "least squares")
 TURNED = 500  # ms: by then the trunk has turned
 FOREARM = 0.02  # m, the radius of a forearm that is a rod
 AHEAD = [[0, 0, 0.06], [0.5, 0, 0.06]]  # m, along the plane in which the hand moves
@@ -50,13 +50,13 @@ def moves(reach, online=None):
 
 @cache
 def calibrate_over_hold(reach):
-    """The motion of a reach after least squares over its whole hold (our own rule)."""
+    """The motion of a reach after least squares over its whole hold."""
     return recalibrate(reach, gauss_newton_calibration).calibrated
 
 
 def motion_at(step, reach, online=None):
     """The motion that a step or a stage of a movement shows."""
-    if step == "our own rule":
+    if step == "least squares":
         return calibrate_over_hold(reach)
     return moves(reach, online)[STAGE_OF.get(step, step)]
 

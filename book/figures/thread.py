@@ -35,7 +35,7 @@ CHAPTERS = {
     11: ("calibrated reach", "online"),
     12: ("calibrated reach", "online"),
     13: ("calibrated reach", "online"),
-    **dict.fromkeys((14, 15, 16, None), ("our own rule", "whole hold")),
+    **dict.fromkeys((14, 15, 16, None), ("least squares", "whole hold")),
 }
 MOTIONS = {  # of the thread, by name: how each comes about
     "plan": "as planned",
