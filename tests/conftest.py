@@ -79,8 +79,13 @@ def pytest_unconfigure(config):
 
 
 # WebAssembly is compiled a second time, better, only where it works for long (thirty times as long
-# as is usual); and the edges of what is drawn in three dimensions need not be smooth
-LIGHT = "--js-flags=--wasm-tiering-budget=400000000", "--webgl-antialiasing-mode=none"
+# as is usual), and no longer than it was; and the edges of what is drawn in three dimensions need
+# not be smooth
+WASM = (
+    "--wasm-tiering-budget=400000000",
+    *("--no-wasm-inlining", "--no-wasm-loop-peeling", "--no-wasm-loop-unrolling"),
+)
+LIGHT = f"--js-flags={','.join(WASM)}", "--webgl-antialiasing-mode=none"
 ENGINES = [Firefox, pytest.param(WebKit, marks=pytest.mark.audit)]
 FAILED = pages.ROOT / "_build/failed"
 # What passed is long: it stays in the page
