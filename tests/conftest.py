@@ -79,8 +79,8 @@ def pytest_unconfigure(config):
 
 
 # WebAssembly is compiled a second time, better, only where it works for long (thirty times as long
-# as is usual), and no longer than it was; and the edges of what is drawn in three dimensions need
-# not be smooth
+# as is usual), and then without what lengthens its code; and the edges of what is drawn in three
+# dimensions need not be smooth
 WASM = (
     "--wasm-tiering-budget=400000000",
     *("--no-wasm-inlining", "--no-wasm-loop-peeling", "--no-wasm-loop-unrolling"),
