@@ -79,7 +79,7 @@ at_sizes = pytest.mark.parametrize(
     ("width", "height"),
     [
         SCREENS[1],
-        pytest.param(*SCREENS[0], marks=pytest.mark.kinds(*PLAYING, "04_crbm", "08_arm")),
+        pytest.param(*SCREENS[0], marks=pytest.mark.kinds("08_arm", "13_see_and_reach")),
     ],
 )
 
@@ -336,7 +336,7 @@ def test_sliders_answer_the_keyboard(page):
         assert slider.get_attribute("aria-valuetext") != words
 
 
-@a_page_of_each_kind
+@pytest.mark.kinds("index", "03_regions", "10_offline", "15_whole_arm", "ledger", "your_photo")
 def test_is_accessible(page, serious):
     assert serious(page, "html", all_of_it=True) == []
 

@@ -102,10 +102,13 @@ def _row(row):
     long = row.where in (
         "V, robots",
         "Ours, robots",
+        "Ours, space",
         "Table V",
         "Fig. 1",
         "Fig. 7",
         "Fig. 8",
+        "IV A, search",
+        "IV B, W²",
         "III, Block 3",
         TIME,
     )
