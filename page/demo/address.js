@@ -85,9 +85,11 @@ export const addAddress = (demo) => {
   });
   let waiting; // until the hand rests: browsers bear only so many new addresses a second
   demo.addEventListener("input", () => {
-    const moved = state(); // Play may soon go on from here, and leaves the address alone
+    const moved = state(), before = location.hash; // Play may soon go on from here, and leaves the address alone
     clearTimeout(waiting);
-    waiting = setTimeout(() => history.replaceState(history.state, "", moved), 200);
+    waiting = setTimeout(() => { // a link that was followed meanwhile is still to be read
+      if (location.hash === before) history.replaceState(history.state, "", moved);
+    }, 200);
   });
   demo.addEventListener("vmc-shown", () => (link.href = state()));
   if (ownQuery() !== undefined) addEventListener("load", bringIntoSight); // pictures take their room

@@ -257,6 +257,22 @@ def test_an_address_is_followed_and_its_impossible_values_are_ignored(addressed)
     assert shown_now(addressed) == "[2, 'right', 'b', True]"
 
 
+def test_a_link_that_is_followed_right_after_a_move_is_not_lost(addressed):
+    """Its address is not overwritten by the move's, which is written when the hand rests."""
+    addressed.evaluate(
+        """(link) => {
+      document.querySelector("[type=range]").dispatchEvent(new Event("input", { bubbles: true }));
+      for (const due = performance.now() + 300; performance.now() < due; );
+      location.hash = link;
+    }""",
+        f"{addressed.id}?x=2&way=1",
+    )
+    addressed.wait_for_function(
+        "seen => document.querySelectorAll('.vmc-demo text')[0].textContent === seen",
+        arg="[2, 'right', 'a', False]",
+    )
+
+
 def test_play_leaves_the_address_alone_and_stops_for_any_control(addressed):
     addressed.click(".vmc-play")
     addressed.get_by_label("right").check()
